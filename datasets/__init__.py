@@ -1,0 +1,1 @@
+"""Frames, cameras, trajectories, readers and the rendered building: what comes in."""

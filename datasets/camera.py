@@ -1,0 +1,137 @@
+"""The pinhole camera and the files it is described in."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets.errors import DatasetError
+
+# Calibrations published with the TUM RGB-D benchmark, by the name of the camera in the sequence's
+# folder: fx, fy, cx, cy, then k1, k2, p1, p2, k3.
+TUM_CALIBRATIONS: dict[str, tuple[float, ...]] = {
+    "freiburg1": (517.3, 516.5, 318.6, 255.3, 0.2624, -0.9531, -0.0054, 0.0026, 1.1633),
+    "freiburg2": (520.9, 521.0, 325.1, 249.7, 0.2312, -0.7849, -0.0033, -0.0001, 0.9172),
+    "freiburg3": (535.4, 539.2, 320.1, 247.6, 0.0, 0.0, 0.0, 0.0, 0.0),
+}
+DEFAULT_CALIBRATION = (525.0, 525.0, 319.5, 239.5, 0.0, 0.0, 0.0, 0.0, 0.0)
+TUM_DEPTH_SCALE = 5000.0
+
+
+@dataclass(frozen=True, slots=True)
+class Intrinsics:
+    """A pinhole camera, in pixels; pixel centres lie on whole numbers.
+
+    `distortion` holds OpenCV's k1, k2, p1, p2, k3. Readers hand out undistorted frames, so the
+    rest of the house sees a camera without it.
+    """
+
+    width: int
+    height: int
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    distortion: tuple[float, ...] = ()
+
+    @property
+    def K(self) -> NDArray[np.float64]:
+        """The (3, 3) camera matrix."""
+        return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1.0]])
+
+    @property
+    def is_distorted(self) -> bool:
+        """Whether the lens distortion is other than zero."""
+        return any(self.distortion)
+
+    def project(self, points_camera: NDArray[np.floating]) -> NDArray[np.float64]:
+        """Project points (N, 3) in the camera frame, z > 0, to pixels (N, 2)."""
+        xy = points_camera[:, :2] / points_camera[:, 2:3]
+        return np.asarray(xy * (self.fx, self.fy) + (self.cx, self.cy), dtype=np.float64)
+
+    def backproject(
+        self, pixels: NDArray[np.floating], depth_m: NDArray[np.floating]
+    ) -> NDArray[np.float64]:
+        """Return the points (N, 3) in the camera frame seen at pixels (N, 2) with depth (N,)."""
+        rays = (pixels - np.array([self.cx, self.cy])) / np.array([self.fx, self.fy])
+        return np.column_stack([rays * depth_m[:, None], depth_m]).astype(np.float64)
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """Intrinsics with the raw depth units per metre, and where both come from."""
+
+    intrinsics: Intrinsics
+    depth_scale: float
+    origin: str
+
+
+def read_camera(path: Path) -> Camera:
+    """Read a camera from JSON: roomgraph's own flat form, or Open3D's.
+
+    Own form: ``width height fx fy cx cy`` and optionally ``distortion`` and ``depth_scale``.
+    Open3D's: ``width height intrinsic_matrix`` (column-major, nine numbers). A missing depth
+    scale is 1000 (millimetres).
+
+    Raises
+    ------
+    DatasetError
+        The file is missing, is not JSON, or lacks a value.
+    """
+    try:
+        values: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if "intrinsic_matrix" in values:
+            fx, _, _, _, fy, _, cx, cy, _ = (float(v) for v in values["intrinsic_matrix"])
+        else:
+            fx, fy, cx, cy = (float(values[k]) for k in ("fx", "fy", "cx", "cy"))
+        intrinsics = Intrinsics(
+            int(values["width"]), int(values["height"]), fx, fy, cx, cy,
+            tuple(float(v) for v in values.get("distortion", ())),
+        )  # fmt: skip
+        scale = float(values.get("depth_scale", 1000.0))
+    except FileNotFoundError as error:
+        raise DatasetError(
+            "camera file not found", where=path, hint="name one with --camera FILE.json"
+        ) from error
+    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        raise DatasetError(
+            "camera file not understood", where=path,
+            expected="JSON with width, height, fx, fy, cx, cy [, depth_scale], or Open3D's form",
+            got=f"{type(error).__name__} {error}",
+        ) from error  # fmt: skip
+    if min(fx, fy, scale, intrinsics.width, intrinsics.height) <= 0:
+        raise DatasetError(
+            "camera file has a value that must be positive", where=path,
+            expected="width, height, fx, fy, depth_scale > 0",
+            got=f"{intrinsics.width}, {intrinsics.height}, {fx:g}, {fy:g}, {scale:g}",
+        )  # fmt: skip
+    return Camera(intrinsics, scale, str(path))
+
+
+def write_camera(path: Path, intrinsics: Intrinsics, depth_scale: float) -> None:
+    """Write a camera in the form that `read_camera` reads."""
+    values: dict[str, Any] = {
+        "width": intrinsics.width, "height": intrinsics.height,
+        "fx": intrinsics.fx, "fy": intrinsics.fy, "cx": intrinsics.cx, "cy": intrinsics.cy,
+        "depth_scale": depth_scale,
+    }  # fmt: skip
+    if intrinsics.is_distorted:
+        values["distortion"] = list(intrinsics.distortion)
+    path.write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
+
+
+def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
+    """Return the published TUM calibration that the sequence's `name` speaks of."""
+    for key, values in TUM_CALIBRATIONS.items():
+        if key in name or key.replace("freiburg", "fr") + "_" in name + "_":
+            origin = f"published TUM calibration of {key}"
+            break
+    else:
+        values, origin = DEFAULT_CALIBRATION, "default Kinect calibration (525 px)"
+    intrinsics = Intrinsics(width, height, *values[:4], distortion=values[4:])
+    return Camera(intrinsics, TUM_DEPTH_SCALE, origin)

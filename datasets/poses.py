@@ -1,0 +1,71 @@
+"""Rigid motions as (4, 4) matrices, and quaternions in xyzw order."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+FloatArray = NDArray[np.float64]
+
+
+def pose(R: ArrayLike | None = None, t: ArrayLike | None = None) -> FloatArray:
+    """Return the (4, 4) rigid motion with rotation `R` (3, 3) and translation `t` (3,), metres."""
+    T = np.eye(4)
+    if R is not None:
+        T[:3, :3] = R
+    if t is not None:
+        T[:3, 3] = t
+    return T
+
+
+def inverse(T: FloatArray) -> FloatArray:
+    """Invert rigid motions (..., 4, 4)."""
+    result = np.zeros_like(T)
+    R_transposed = np.swapaxes(T[..., :3, :3], -1, -2)
+    result[..., :3, :3] = R_transposed
+    result[..., :3, 3] = -(R_transposed @ T[..., :3, 3:])[..., 0]
+    result[..., 3, 3] = 1.0
+    return result
+
+
+def transform(T: FloatArray, points: NDArray[np.floating]) -> FloatArray:
+    """Move points (N, 3) by the rigid motion `T` (4, 4)."""
+    return np.asarray(points @ T[:3, :3].T + T[:3, 3], dtype=np.float64)
+
+
+def hat(w: FloatArray) -> FloatArray:
+    """Return the skew-symmetric matrices (..., 3, 3) of vectors (..., 3)."""
+    result = np.zeros((*w.shape, 3))
+    result[..., 0, 1], result[..., 0, 2] = -w[..., 2], w[..., 1]
+    result[..., 1, 0], result[..., 1, 2] = w[..., 2], -w[..., 0]
+    result[..., 2, 0], result[..., 2, 1] = -w[..., 1], w[..., 0]
+    return result
+
+
+def exponential(xi: FloatArray) -> FloatArray:
+    """Return the motion (4, 4) of a small step `xi` (6,): rotation vector, then translation.
+
+    The translation is taken as it is (the pseudo-exponential of Blanco, 2010, section 9),
+    which agrees with the exponential of SE(3) to first order.
+    """
+    return pose(Rotation.from_rotvec(xi[:3]).as_matrix(), xi[3:])
+
+
+def rotation_angle(T: FloatArray) -> float:
+    """Return the angle of the rotation of `T` (4, 4), in radians, in [0, pi]."""
+    return float(Rotation.from_matrix(T[:3, :3]).magnitude())
+
+
+def from_quaternion(xyzw: ArrayLike, t: ArrayLike) -> FloatArray:
+    """Return motions (N, 4, 4) from quaternions (N, 4) in xyzw order and translations (N, 3)."""
+    quaternions = np.atleast_2d(np.asarray(xyzw, dtype=np.float64))
+    T = np.tile(np.eye(4), (len(quaternions), 1, 1))
+    T[:, :3, :3] = Rotation.from_quat(quaternions).as_matrix()
+    T[:, :3, 3] = np.atleast_2d(np.asarray(t, dtype=np.float64))
+    return T
+
+
+def to_quaternion(T: FloatArray) -> FloatArray:
+    """Return the rotations of motions (N, 4, 4) as unit quaternions (N, 4), xyzw, w >= 0."""
+    return np.asarray(Rotation.from_matrix(T[..., :3, :3]).as_quat(canonical=True))

@@ -1,0 +1,1 @@
+"""The high layer: visual words, place labels and the semantic topological graph."""
