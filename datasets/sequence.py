@@ -1,0 +1,112 @@
+"""What every reader offers: a sequence of RGB-D frames with what is known about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets.camera import Camera
+from datasets.errors import DatasetError
+from datasets.frame import Frame
+from datasets.places import PlaceTruth
+from datasets.trajectory import Trajectory
+
+
+@runtime_checkable
+class Sequence(Protocol):
+    """RGB-D frames in time order.
+
+    Attributes
+    ----------
+    name : str
+        Short name, usually the folder's.
+    root : Path
+        Where it lies on disk.
+    camera : Camera
+        Intrinsics, raw depth units per metre, and where they come from.
+    ground_truth : Trajectory or None
+        True poses, where there are any.
+    places : PlaceTruth or None
+        True room labels, where there are any.
+    notes : tuple of str
+        What a person should know: frames dropped, the calibration chosen ...
+    """
+
+    name: str
+    root: Path
+    camera: Camera
+    ground_truth: Trajectory | None
+    places: PlaceTruth | None
+    notes: tuple[str, ...]
+
+    @property
+    def stamps_s(self) -> NDArray[np.float64]:
+        """Time stamps of all frames (N,), seconds."""
+        ...
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, index: int) -> Frame:
+        """Read frame `index`; raises DatasetError if one of its images cannot be read."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """A part of a sequence: `indices` of its frames, in order. A sequence like any other."""
+
+    source: Sequence
+    indices: tuple[int, ...]
+    name: str
+    root: Path
+    camera: Camera
+    ground_truth: Trajectory | None
+    places: PlaceTruth | None
+    notes: tuple[str, ...]
+
+    @property
+    def stamps_s(self) -> NDArray[np.float64]:
+        """Time stamps of the chosen frames (N,), seconds."""
+        return self.source.stamps_s[list(self.indices)]
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def __getitem__(self, index: int) -> Frame:
+        frame = self.source[self.indices[index]]
+        return Frame(index, frame.stamp_s, frame.colour, frame.depth, frame.intrinsics)
+
+
+def select(
+    sequence: Sequence, start: int = 0, frames: int | None = None, stride: int = 1
+) -> Sequence:
+    """Return every `stride`-th frame from `start`, `frames` of them at most.
+
+    Raises
+    ------
+    DatasetError
+        Nothing is left.
+    """
+    if (start, frames, stride) == (0, None, 1):
+        return sequence
+    indices = tuple(range(start, len(sequence), stride))[:frames]
+    if not indices:
+        raise DatasetError(
+            "no frame is left to read", where=sequence.root, expected=f"start < {len(sequence)}",
+            got=f"start {start}, frames {frames}", hint="lower --start or raise --frames",
+        )  # fmt: skip
+    return Selection(
+        sequence, indices, sequence.name, sequence.root, sequence.camera,
+        sequence.ground_truth, sequence.places, sequence.notes,
+    )  # fmt: skip
+
+
+def frames_of(sequence: Sequence) -> Iterator[Frame]:
+    """Yield all frames in order."""
+    for index in range(len(sequence)):
+        yield sequence[index]
