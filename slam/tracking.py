@@ -1,0 +1,88 @@
+"""What the low layer says of each frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slam.features import Features
+
+
+class TrackingState(StrEnum):
+    """How a frame fared."""
+
+    OK = "ok"
+    LOST = "lost"
+    RELOCALISED = "relocalised"
+    SKIPPED = "skipped"
+
+    @property
+    def has_pose(self) -> bool:
+        """Whether a frame in this state has a pose."""
+        return self in (TrackingState.OK, TrackingState.RELOCALISED)
+
+
+@dataclass(frozen=True, slots=True)
+class Anchor:
+    """A pose held by a keyframe, so that it moves along when loops move the keyframe.
+
+    Attributes
+    ----------
+    keyframe : int
+        The keyframe's id.
+    T_keyframe_camera : (4, 4) float64
+        Maps camera points to the keyframe's camera.
+    """
+
+    keyframe: int
+    T_keyframe_camera: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class LoopClosure:
+    """Two keyframes found to see the same thing, far apart in time."""
+
+    keyframe: int
+    matched_keyframe: int
+    inliers: int
+
+
+@dataclass(frozen=True, slots=True)
+class Tracking:
+    """The low layer's account of one frame.
+
+    Attributes
+    ----------
+    index, stamp_s : int, float
+        The frame's.
+    state : TrackingState
+        How it fared; only `ok` and `relocalised` frames have a pose.
+    inliers : int
+        Feature matches that agree with the pose; 0 if it does not come from features.
+    method : str
+        What the pose comes from: ``features``, ``kiss-icp``, or ``none``.
+    anchor : Anchor or None
+        The pose, relative to a keyframe; None where there is none.
+    T_world_camera : (4, 4) float64 or None
+        The pose as estimated now; a later loop closure may move it (use `anchor` to follow).
+    is_keyframe : bool
+        Whether the frame became keyframe ``anchor.keyframe``.
+    closures : tuple of LoopClosure
+        Loops that this frame closed.
+    features : Features
+        The frame's features, shared with the high layer.
+    """
+
+    index: int
+    stamp_s: float
+    state: TrackingState
+    inliers: int
+    method: str
+    anchor: Anchor | None
+    T_world_camera: NDArray[np.float64] | None
+    is_keyframe: bool
+    closures: tuple[LoopClosure, ...]
+    features: Features
