@@ -127,11 +127,10 @@ def write_camera(path: Path, intrinsics: Intrinsics, depth_scale: float) -> None
 
 def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
     """Return the published TUM calibration that the sequence's `name` speaks of."""
-    for key, values in TUM_CALIBRATIONS.items():
+    values, origin = DEFAULT_CALIBRATION, "default Kinect calibration (525 px)"
+    for key, published in TUM_CALIBRATIONS.items():
         if key in name or key.replace("freiburg", "fr") + "_" in name + "_":
-            origin = f"published TUM calibration of {key}"
-            break
-    else:
-        values, origin = DEFAULT_CALIBRATION, "default Kinect calibration (525 px)"
-    intrinsics = Intrinsics(width, height, *values[:4], distortion=values[4:])
+            values, origin = published, f"published TUM calibration of {key}"
+    fx, fy, cx, cy, *distortion = values
+    intrinsics = Intrinsics(width, height, fx, fy, cx, cy, tuple(distortion))
     return Camera(intrinsics, TUM_DEPTH_SCALE, origin)

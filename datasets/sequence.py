@@ -37,12 +37,23 @@ class Sequence(Protocol):
         What a person should know: frames dropped, the calibration chosen ...
     """
 
-    name: str
-    root: Path
-    camera: Camera
-    ground_truth: Trajectory | None
-    places: PlaceTruth | None
-    notes: tuple[str, ...]
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def root(self) -> Path: ...
+
+    @property
+    def camera(self) -> Camera: ...
+
+    @property
+    def ground_truth(self) -> Trajectory | None: ...
+
+    @property
+    def places(self) -> PlaceTruth | None: ...
+
+    @property
+    def notes(self) -> tuple[str, ...]: ...
 
     @property
     def stamps_s(self) -> NDArray[np.float64]:

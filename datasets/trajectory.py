@@ -71,7 +71,9 @@ def read_tum(path: Path) -> Trajectory:
     order = np.argsort(values[:, 0], kind="stable")
     values = values[order]
     if np.any(np.linalg.norm(values[:, 4:], axis=1) < 0.5):
-        raise DatasetError("a quaternion has no length", where=path, expected="qx qy qz qw of norm 1")
+        raise DatasetError(
+            "a quaternion has no length", where=path, expected="qx qy qz qw of norm 1"
+        )
     return Trajectory(values[:, 0], poses.from_quaternion(values[:, 4:], values[:, 1:4]))
 
 
@@ -87,7 +89,7 @@ def write_tum(path: Path, trajectory: Trajectory) -> None:
 
 
 def read_kitti(path: Path) -> Trajectory:
-    """Read KITTI poses: twelve numbers a line, the rows of T_world_camera; stamps are 0, 1, 2 ..."""
+    """Read KITTI poses: twelve numbers a line, the rows of T_world_camera; stamps count up."""
     values = _read_numbers(path, 12)
     T = np.tile(np.eye(4), (len(values), 1, 1))
     T[:, :3, :] = values.reshape(-1, 3, 4)
