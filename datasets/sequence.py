@@ -19,41 +19,37 @@ from datasets.trajectory import Trajectory
 
 @runtime_checkable
 class Sequence(Protocol):
-    """RGB-D frames in time order.
-
-    Attributes
-    ----------
-    name : str
-        Short name, usually the folder's.
-    root : Path
-        Where it lies on disk.
-    camera : Camera
-        Intrinsics, raw depth units per metre, and where they come from.
-    ground_truth : Trajectory or None
-        True poses, where there are any.
-    places : PlaceTruth or None
-        True room labels, where there are any.
-    notes : tuple of str
-        What a person should know: frames dropped, the calibration chosen ...
-    """
+    """RGB-D frames in time order, read when asked for."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Short name, usually the folder's."""
+        ...
 
     @property
-    def root(self) -> Path: ...
+    def root(self) -> Path:
+        """Where it lies on disk."""
+        ...
 
     @property
-    def camera(self) -> Camera: ...
+    def camera(self) -> Camera:
+        """Intrinsics, raw depth units per metre, and where both come from."""
+        ...
 
     @property
-    def ground_truth(self) -> Trajectory | None: ...
+    def ground_truth(self) -> Trajectory | None:
+        """True poses, where there are any."""
+        ...
 
     @property
-    def places(self) -> PlaceTruth | None: ...
+    def places(self) -> PlaceTruth | None:
+        """True room labels, where there are any."""
+        ...
 
     @property
-    def notes(self) -> tuple[str, ...]: ...
+    def notes(self) -> tuple[str, ...]:
+        """What a person should know: frames dropped, the calibration chosen ..."""
+        ...
 
     @property
     def stamps_s(self) -> NDArray[np.float64]:

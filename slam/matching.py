@@ -1,0 +1,75 @@
+"""Nearest neighbours among descriptors, with the ratio test."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Matches = NDArray[np.intp]
+
+
+def match(
+    rows: NDArray[Any],
+    columns: NDArray[Any],
+    ratio: float,
+    allowed: NDArray[np.bool_] | None = None,
+) -> Matches:
+    """Match each of the rows to its nearest column, if it is clearly nearer than the next.
+
+    Lowe's ratio test (2004, section 7.1), among the columns allowed. Several rows may choose the
+    same column: then the nearest of them keeps it.
+
+    Parameters
+    ----------
+    rows : (N, D) float32, or uint8 for binary descriptors
+    columns : (M, D) of the same kind
+    ratio : float
+        Largest distance to the nearest, as a share of the distance to the second nearest.
+    allowed : (N, M) bool, optional
+        Pairs that may match at all.
+
+    Returns
+    -------
+    (P, 2) int
+        Indices into rows and columns.
+    """
+    if not len(rows) or not len(columns):
+        return np.empty((0, 2), dtype=np.intp)
+    distance = squared_distances(rows, columns)
+    if allowed is not None:
+        distance[~allowed] = np.inf
+    every_row = np.arange(len(rows))
+    nearest = distance.argmin(axis=1)
+    best = distance[every_row, nearest].copy()
+    distance[every_row, nearest] = np.inf
+    second = distance.min(axis=1)
+    good = np.flatnonzero((best < ratio**2 * second) & np.isfinite(best))
+    good = good[np.argsort(best[good], kind="stable")]
+    _, first = np.unique(nearest[good], return_index=True)
+    kept = np.sort(good[first])
+    return np.column_stack([kept, nearest[kept]])
+
+
+def squared_distances(rows: NDArray[Any], columns: NDArray[Any]) -> NDArray[np.float32]:
+    """Return squared Euclidean (or, for uint8, Hamming) distances (N, M) of descriptors."""
+    if rows.dtype == np.uint8:
+        return np.asarray(cv2.batchDistance(
+            rows, columns, cv2.CV_32S, normType=cv2.NORM_HAMMING
+        )[0], dtype=np.float32) ** 2  # fmt: skip
+    product = rows @ columns.T
+    product *= -2
+    product += np.einsum("nd,nd->n", rows, rows)[:, None]
+    product += np.einsum("md,md->m", columns, columns)
+    return np.asarray(np.maximum(product, 0, out=product))
+
+
+def near(
+    predicted: NDArray[np.float64], pixels: NDArray[np.float64], radius: float
+) -> NDArray[np.bool_]:
+    """Return which pixels (M, 2) lie within `radius` of which predicted positions (N, 2)."""
+    x = np.abs(np.subtract.outer(predicted[:, 0], pixels[:, 0]))
+    y = np.abs(np.subtract.outer(predicted[:, 1], pixels[:, 1]))
+    return np.asarray((x < radius) & (y < radius))

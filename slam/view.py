@@ -1,0 +1,77 @@
+"""A frame as the low layer sees it: features with their depth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets.frame import Frame
+from slam.features import FeatureExtractor, Features
+
+# A feature whose neighbourhood's depth differs by more than this share lies on an edge, where the
+# reading may belong to either side.
+EDGE_SHARE = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A frame with its features.
+
+    Attributes
+    ----------
+    frame : Frame
+        Where it comes from; depth beyond the range is already 0.
+    features : Features
+        N features.
+    points_camera : (N, 3) float64
+        Where the features lie, metres; NaN where there is no trustworthy depth.
+    """
+
+    frame: Frame
+    features: Features
+    points_camera: NDArray[np.float64]
+
+    @property
+    def has_point(self) -> NDArray[np.bool_]:
+        """Which features (N,) have depth."""
+        return np.isfinite(self.points_camera[:, 2])
+
+
+def see(frame: Frame, extractor: FeatureExtractor, max_depth_m: float) -> View:
+    """Find the features of a frame and where they lie. Needs no state: may run ahead in a thread."""
+    depth = np.where(frame.depth <= max_depth_m, frame.depth, np.float32(0))
+    frame = Frame(frame.index, frame.stamp_s, frame.colour, depth, frame.intrinsics)
+    features = extractor.extract(frame)
+    z = depth_at(depth, features.pixels)
+    points = frame.intrinsics.backproject(features.pixels, z)
+    points[z <= 0] = np.nan
+    return View(frame, features, points)
+
+
+def depth_at(depth: NDArray[np.float32], pixels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the depth (N,) at pixels (N, 2), metres; 0 in holes and on depth edges."""
+    if not len(pixels):
+        return np.empty(0)
+    height, width = depth.shape
+    x = np.clip(np.rint(pixels[:, 0]).astype(np.intp), 1, width - 2)
+    y = np.clip(np.rint(pixels[:, 1]).astype(np.intp), 1, height - 2)
+    offsets = np.arange(-1, 2)
+    patch = depth[y[:, None, None] + offsets[:, None], x[:, None, None] + offsets].reshape(-1, 9)
+    known = patch > 0
+    low = np.where(known, patch, np.inf).min(axis=1)
+    high = patch.max(axis=1)
+    total = known.sum(axis=1)
+    centre = patch.sum(axis=1) / np.maximum(total, 1)
+    sound = (total >= 5) & (high - low < EDGE_SHARE * centre)
+    return np.where(sound, centre, 0.0).astype(np.float64)
+
+
+def without_edges(depth: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Clear the readings (H, W) beside depth edges, where cameras report points in mid-air."""
+    kernel = np.ones((3, 3), np.uint8)
+    far = cv2.dilate(depth, kernel)
+    near = cv2.erode(np.where(depth > 0, depth, np.float32(np.inf)), kernel)
+    return np.where(far - near < EDGE_SHARE * depth, depth, np.float32(0))
