@@ -52,6 +52,11 @@ def exponential(xi: FloatArray) -> FloatArray:
     return pose(Rotation.from_rotvec(xi[:3]).as_matrix(), xi[3:])
 
 
+def logarithm(T: FloatArray) -> FloatArray:
+    """Return the step (6,) that `exponential` turns into `T` (4, 4)."""
+    return np.concatenate([Rotation.from_matrix(T[:3, :3]).as_rotvec(), T[:3, 3]])
+
+
 def rotation_angle(T: FloatArray) -> float:
     """Return the angle of the rotation of `T` (4, 4), in radians, in [0, pi]."""
     return float(Rotation.from_matrix(T[:3, :3]).magnitude())

@@ -32,7 +32,7 @@ class FeatureSettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class Features:
-    """Features of one image.
+    """Features of one image, the strongest first.
 
     Attributes
     ----------
@@ -90,8 +90,10 @@ class FeatureExtractor:
         keypoints, descriptors = self._detector.detectAndCompute(grey, None)
         if descriptors is None:
             return _no_features(32 if self.is_binary else 128)
-        pixels = cv2.KeyPoint.convert(keypoints).reshape(-1, 2).astype(np.float64)
-        sizes = np.array([keypoint.size for keypoint in keypoints], dtype=np.float32)
+        order = np.argsort([-keypoint.response for keypoint in keypoints], kind="stable")
+        pixels = np.array([keypoint.pt for keypoint in keypoints])[order]
+        sizes = np.array([keypoint.size for keypoint in keypoints], dtype=np.float32)[order]
+        descriptors = descriptors[order]
         # Pixel centres lie on whole numbers, in the small image and in the large one.
         pixels = (pixels + 0.5) * scale - 0.5
         if self.settings.detector == "rootsift":

@@ -150,8 +150,8 @@ def _procrustes_ransac(
         return np.asarray(np.linalg.norm(moved - target, axis=-1) < allowed)
 
     hypotheses = procrustes(source[samples], target[samples])
-    inliers = agreeing(hypotheses)[None].sum(-1).argmax()
-    T, mask = hypotheses[inliers], agreeing(hypotheses[inliers])
+    best = agreeing(hypotheses).sum(axis=-1).argmax()
+    T, mask = hypotheses[best], agreeing(hypotheses[best])
     for _ in range(3):
         if mask.sum() < settings.min_inliers:
             return None

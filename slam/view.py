@@ -41,7 +41,7 @@ class View:
 
 
 def see(frame: Frame, extractor: FeatureExtractor, max_depth_m: float) -> View:
-    """Find the features of a frame and where they lie. Needs no state: may run ahead in a thread."""
+    """Find a frame's features and where they lie; stateless, so it may run ahead in a thread."""
     depth = np.where(frame.depth <= max_depth_m, frame.depth, np.float32(0))
     frame = Frame(frame.index, frame.stamp_s, frame.colour, depth, frame.intrinsics)
     features = extractor.extract(frame)

@@ -1,0 +1,87 @@
+"""Which keyframes look like this one: an inverted index over words found on the way."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from datasets.settings import Settings
+from slam.matching import squared_distances
+
+
+class AppearanceSettings(Settings):
+    """How words are made of descriptors."""
+
+    max_words: int = Field(4096, ge=16, description="words at most")
+    radius: float = Field(
+        0.55, gt=0, le=2, description="a descriptor this far from all words, in norms, is a new one"
+    )
+    features: int = Field(300, ge=20, description="features of a keyframe that are indexed")
+
+
+class AppearanceIndex:
+    """Ranks past keyframes by shared words, rare words counting more (tf-idf).
+
+    The vocabulary needs no training: a descriptor far from every word becomes a word itself
+    (leader clustering), until there are enough. After Sivic & Zisserman (2003), and Angeli et
+    al. (2008) for the vocabulary made on the way.
+    """
+
+    def __init__(self, settings: AppearanceSettings) -> None:
+        self.settings = settings
+        self._words: NDArray[Any] = np.empty((0, 0))
+        self._keyframes_of: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
+        self._keyframes = 0
+
+    def words_of(self, descriptors: NDArray[Any]) -> NDArray[np.intp]:
+        """Return the word (n,) of each of the descriptors (N, D), new ones made where needed."""
+        descriptors = descriptors[: self.settings.features]
+        if not len(descriptors):
+            return np.empty(0, dtype=np.intp)
+        limit = self._limit(descriptors)
+        if not len(self._words):
+            self._words = descriptors[:1].copy()
+        distance = squared_distances(descriptors, self._words)
+        fresh = descriptors[distance.min(axis=1) > limit]
+        room = self.settings.max_words - len(self._words)
+        leaders: list[int] = []
+        between = squared_distances(fresh, fresh) if len(fresh) and room > 0 else np.empty((0, 0))
+        for i in range(len(between)):
+            if len(leaders) < room and (not leaders or between[i, leaders].min() > limit):
+                leaders.append(i)
+        if leaders:
+            distance = np.hstack([distance, squared_distances(descriptors, fresh[leaders])])
+            self._words = np.vstack([self._words, fresh[leaders]])
+        return np.asarray(distance.argmin(axis=1))
+
+    def add(self, keyframe: int, words: NDArray[np.intp]) -> None:
+        """Remember a keyframe by its words."""
+        found, count = np.unique(words, return_counts=True)
+        length = float(np.sqrt((count**2).sum())) or 1.0
+        for word, n in zip(found.tolist(), count.tolist(), strict=True):
+            self._keyframes_of[word].append((keyframe, n / length))
+        self._keyframes += 1
+
+    def rank(self, words: NDArray[np.intp], before: int) -> list[tuple[int, float]]:
+        """Return the keyframes with ids below `before` and their scores, the most alike first."""
+        found, count = np.unique(words, return_counts=True)
+        scores: defaultdict[int, float] = defaultdict(float)
+        length = float(np.sqrt((count**2).sum())) or 1.0
+        for word, n in zip(found.tolist(), count.tolist(), strict=True):
+            holders = self._keyframes_of.get(word, [])
+            rarity = np.log((1 + self._keyframes) / (1 + len(holders)))
+            for keyframe, weight in holders:
+                if keyframe < before:
+                    scores[keyframe] += rarity * weight * n / length
+        return sorted(scores.items(), key=lambda item: (-item[1], item[0]))
+
+    def _limit(self, descriptors: NDArray[Any]) -> float:
+        """Return the squared radius in the descriptors' own unit."""
+        if descriptors.dtype == np.uint8:
+            return float(self.settings.radius * descriptors.shape[1] * 8 / 2) ** 2
+        norm = float(np.sqrt((descriptors[0] ** 2).sum()))
+        return (self.settings.radius * norm) ** 2

@@ -1,0 +1,87 @@
+"""Measuring the motion between two keyframes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from slam.icp import IcpSettings, align_planes
+from slam.keyframe import Keyframe
+from slam.local_map import local_map
+from slam.noise import SensorNoise
+from slam.pose_graph import Link
+from slam.refine import CHI2_95, RefinedMotion, refine_motion
+from slam.tracker import Located, Tracker, correspondences
+from slam.view import View
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A link with the number of matches it rests on, and whether planes refined it."""
+
+    link: Link
+    inliers: int
+    refined_by_planes: bool
+
+
+class Linker:
+    """Measures links from matched features, and refines them on common planes."""
+
+    def __init__(self, tracker: Tracker, icp: IcpSettings, noise: SensorNoise) -> None:
+        self.tracker, self.icp, self.noise = tracker, icp, noise
+
+    def from_tracking(
+        self, view: View, keyframe: Keyframe, owners: dict[int, Keyframe], located: Located
+    ) -> list[Measured]:
+        """Return a link to each keyframe of the local map that shares enough matches."""
+        measured = []
+        for owner_id, count in located.matches_by_owner().items():
+            if count < self.tracker.settings.min_inliers:
+                continue
+            owner = owners[owner_id]
+            chosen = located.matches[located.local_map.owners[located.matches[:, 0]] == owner_id]
+            rows = np.column_stack([located.local_map.rows[chosen[:, 0]], chosen[:, 1]])
+            found = correspondences(owner.points, view, rows)
+            start = self._start(found.points, chosen, located)
+            motion = refine_motion(start, found, view.frame.intrinsics, self.noise)
+            if motion.count >= self.tracker.settings.min_inliers:
+                measured.append(self._measure(keyframe, owner, motion, is_loop=False))
+        return measured
+
+    def between(self, view: View, keyframe: Keyframe, other: Keyframe) -> Measured | None:
+        """Return a loop link to a keyframe whose relative pose is not known, or None."""
+        located = self.tracker.locate(view, local_map([(other, np.eye(4))]))
+        if located is None:
+            return None
+        return self._measure(keyframe, other, located.motion, is_loop=True)
+
+    def _start(self, points: FloatArray, chosen: NDArray[np.intp], located: Located) -> FloatArray:
+        """Return T_camera_owner from two positions of the same points: a closed-form fit."""
+        from slam.motion import procrustes
+
+        T_reference_owner = procrustes(points, located.local_map.points[chosen[:, 0]])
+        return located.motion.T_camera_reference @ T_reference_owner
+
+    def _measure(
+        self, keyframe: Keyframe, other: Keyframe, motion: RefinedMotion, is_loop: bool
+    ) -> Measured:
+        """Refine a motion on common planes and make it a link; kept only if it fits better."""
+        T_keyframe_other, information = motion.T_camera_reference, motion.information
+        aligned = align_planes(
+            other.planes, keyframe.planes, T_keyframe_other, information, self.noise, self.icp
+        )
+        refined = False
+        if aligned is not None and aligned.improves:
+            step = poses.logarithm(aligned.T_target_source @ poses.inverse(T_keyframe_other))
+            # The features must still agree: the step stays within their own 95 % bound.
+            if step @ information @ step < 2 * CHI2_95:
+                refined = True
+                T_keyframe_other = aligned.T_target_source
+                information = information + aligned.information
+        link = Link(other.id, keyframe.id, poses.inverse(T_keyframe_other), information, is_loop)
+        return Measured(link, motion.count, refined)

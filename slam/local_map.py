@@ -1,0 +1,74 @@
+"""The points around the camera, from several keyframes at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from datasets.camera import Intrinsics
+from slam.keyframe import Keyframe
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class LocalMap:
+    """Points of a reference keyframe and its neighbours, in the reference's camera frame.
+
+    Attributes
+    ----------
+    reference : int
+        Id of the reference keyframe.
+    points : (N, 3) float64
+        Metres.
+    descriptors : (N, D)
+        One a point.
+    owners : (N,) int
+        Ids of the keyframes that they come from.
+    rows : (N,) int
+        Which feature of its owner each is.
+    """
+
+    reference: int
+    points: FloatArray
+    descriptors: NDArray[Any]
+    owners: NDArray[np.intp]
+    rows: NDArray[np.intp]
+
+    def visible(
+        self, T_camera_reference: FloatArray, intrinsics: Intrinsics, margin: float
+    ) -> tuple[NDArray[np.intp], FloatArray]:
+        """Return which points (M,) a camera would see, and at which pixels (M, 2).
+
+        `margin` pixels outside the image still count.
+        """
+        points = poses.transform(T_camera_reference, self.points)
+        ahead = np.flatnonzero(points[:, 2] > 0.1)
+        pixels = intrinsics.project(points[ahead])
+        inside = np.all(
+            (pixels > -margin) & (pixels < (intrinsics.width + margin, intrinsics.height + margin)),
+            axis=1,
+        )
+        return ahead[inside], pixels[inside]
+
+
+def local_map(keyframes: Sequence[tuple[Keyframe, FloatArray]]) -> LocalMap:
+    """Join keyframes, given with T_world_keyframe (4, 4); the first is the reference."""
+    reference, T_world_reference = keyframes[0]
+    T_reference_world = poses.inverse(T_world_reference)
+    points, descriptors, owners, rows = [], [], [], []
+    for keyframe, T_world_keyframe in keyframes:
+        known = np.flatnonzero(np.isfinite(keyframe.points[:, 2]))
+        points.append(poses.transform(T_reference_world @ T_world_keyframe, keyframe.points[known]))
+        descriptors.append(keyframe.features.descriptors[known])
+        owners.append(np.full(len(known), keyframe.id))
+        rows.append(known)
+    return LocalMap(
+        reference.id, np.concatenate(points), np.concatenate(descriptors),
+        np.concatenate(owners), np.concatenate(rows),
+    )  # fmt: skip

@@ -1,0 +1,169 @@
+"""The keyframes, the graph that holds them together, and how a new one joins."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from datasets import poses
+from datasets.settings import Settings
+from slam.keyframe import Keyframe, cloud_of
+from slam.linker import Linker
+from slam.local_map import LocalMap, local_map
+from slam.loops import LoopCloser
+from slam.map import MapSettings
+from slam.noise import SensorNoise
+from slam.planes import PlaneSettings, extract_planes
+from slam.pose_graph import Link, PoseGraph
+from slam.tracker import Located
+from slam.tracking import LoopClosure
+from slam.view import View
+
+FloatArray = NDArray[np.float64]
+
+
+class KeyframeSettings(Settings):
+    """When a view becomes a keyframe."""
+
+    min_overlap: float = Field(
+        0.75, gt=0, le=1, description="of the reference's points, the least still in view"
+    )
+    min_inlier_share: float = Field(
+        0.35, gt=0, le=1, description="of the points in view, the least still matched"
+    )
+    max_baseline_share: float = Field(
+        0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
+    )
+    max_angle_deg: float = Field(20.0, gt=0, le=180, description="turn from the reference, at most")
+    neighbours: int = Field(3, ge=0, le=50, description="keyframes tracked beside the reference")
+
+
+@dataclass(frozen=True, slots=True)
+class Coarse:
+    """A pose without matches, from depth alone."""
+
+    reference: int
+    T_camera_reference: FloatArray
+    information: FloatArray
+
+
+class Mapper:
+    """Owns keyframes and pose graph; all world positions come from here."""
+
+    def __init__(
+        self,
+        settings: KeyframeSettings,
+        planes: PlaneSettings,
+        cloud: MapSettings,
+        noise: SensorNoise,
+        linker: Linker,
+        loops: LoopCloser,
+        graph: PoseGraph,
+    ) -> None:
+        self.settings, self.planes, self.cloud, self.noise = settings, planes, cloud, noise
+        self.linker, self.loops, self.graph = linker, loops, graph
+        self.keyframes: dict[int, Keyframe] = {}
+        self.closures: list[LoopClosure] = []
+        self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
+
+    def start(self, view: View, T_world_camera: FloatArray) -> int:
+        """Make the first keyframe; return its id."""
+        keyframe = self._keep(view)
+        self.graph.add_keyframe(keyframe.id, T_world_camera)
+        self.graph.optimise()
+        self.loops.index.add(keyframe.id, self.loops.index.words_of(keyframe.features.descriptors))
+        return keyframe.id
+
+    def insert(self, view: View, located: Located | Coarse) -> tuple[int, tuple[LoopClosure, ...]]:
+        """Make a keyframe of a view with a pose; return its id and the loops it closes."""
+        reference, T = _pose_of(located)
+        keyframe = self._keep(view)
+        self.graph.add_keyframe(keyframe.id, self.graph[reference] @ poses.inverse(T))
+        for link in self._links(view, keyframe, located):
+            self._add(link)
+        known = self._neighbours[keyframe.id].union(
+            *(self._neighbours[k] for k in self._neighbours[keyframe.id])
+        )
+        measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
+        for loop in measured:
+            self._add(loop.link)
+        self.graph.optimise()
+        closures = tuple(
+            LoopClosure(keyframe.id, loop.link.first, loop.inliers) for loop in measured
+        )
+        self.closures.extend(closures)
+        return keyframe.id, closures
+
+    def around(self, reference: int) -> LocalMap:
+        """Return the points of a keyframe and of those linked to it that look the same way."""
+        T_reference_world = poses.inverse(self.graph[reference])
+        ranked = []
+        for other in self._neighbours[reference]:
+            T = T_reference_world @ self.graph[other]
+            ranked.append((np.linalg.norm(T[:3, 3]) + 2 * poses.rotation_angle(T), other))
+        chosen = [reference, *(k for _, k in sorted(ranked)[: self.settings.neighbours])]
+        return local_map([(self.keyframes[k], self.graph[k]) for k in chosen])
+
+    def wants(self, view: View, located: Located) -> bool:
+        """Whether a view should become a keyframe: it shows new space, or is losing touch."""
+        T = located.motion.T_camera_reference
+        reference = self.keyframes[located.local_map.reference]
+        points = reference.points[np.isfinite(reference.points[:, 2])]
+        moved = poses.transform(T, points)
+        ahead = moved[moved[:, 2] > 0.1]
+        pixels = view.frame.intrinsics.project(ahead)
+        size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
+        overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / max(1, len(points))
+        matched = located.matches_by_owner().get(reference.id, 0)
+        depth = float(np.median(points[:, 2])) if len(points) else 1.0
+        return bool(
+            overlap < self.settings.min_overlap
+            or matched < self.settings.min_inlier_share * overlap * len(points)
+            or np.linalg.norm(T[:3, 3]) > self.settings.max_baseline_share * depth
+            or np.degrees(poses.rotation_angle(T)) > self.settings.max_angle_deg
+        )
+
+    def _keep(self, view: View) -> Keyframe:
+        frame = view.frame
+        cloud, colours = cloud_of(view, self.cloud.stride, self.cloud.max_depth_m)
+        planes = (
+            extract_planes(cloud.astype(np.float64), self.noise, self.planes)
+            if self.planes.enabled
+            else ()
+        )
+        keyframe = Keyframe(
+            len(self.keyframes), frame.index, frame.stamp_s, view.features, view.points_camera,
+            planes, cloud, colours, frame.intrinsics,
+        )  # fmt: skip
+        self.keyframes[keyframe.id] = keyframe
+        return keyframe
+
+    def _links(self, view: View, keyframe: Keyframe, located: Located | Coarse) -> list[Link]:
+        if isinstance(located, Located):
+            measured = self.linker.from_tracking(view, keyframe, self.keyframes, located)
+            if measured:
+                return [m.link for m in measured]
+            reference, T, information = (
+                located.local_map.reference,
+                located.motion.T_camera_reference,
+                located.motion.information,
+            )
+        else:
+            reference, T = located.reference, located.T_camera_reference
+            information = located.information
+        return [Link(reference, keyframe.id, poses.inverse(T), information, is_loop=False)]
+
+    def _add(self, link: Link) -> None:
+        self.graph.add_link(link)
+        self._neighbours[link.first].add(link.second)
+        self._neighbours[link.second].add(link.first)
+
+
+def _pose_of(located: Located | Coarse) -> tuple[int, FloatArray]:
+    if isinstance(located, Located):
+        return located.local_map.reference, located.motion.T_camera_reference
+    return located.reference, located.T_camera_reference

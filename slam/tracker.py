@@ -1,0 +1,140 @@
+"""Where a view is, given the points around."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from datasets.settings import Settings
+from slam.local_map import LocalMap
+from slam.matching import Matches, match, near
+from slam.motion import Correspondences, MotionSettings, estimate_motion
+from slam.noise import SensorNoise
+from slam.refine import RefinedMotion, refine_motion
+from slam.view import View
+
+FloatArray = NDArray[np.float64]
+
+
+class TrackerSettings(Settings):
+    """How views are matched to the points around."""
+
+    ratio: float = Field(0.8, gt=0, lt=1, description="ratio test between nearest descriptors")
+    search_share: float = Field(
+        0.06, gt=0, le=1, description="search radius around predictions, of the image's width"
+    )
+    guided_inliers: int = Field(
+        40, ge=6, description="fewer from guided matching, and all features are matched anew"
+    )
+    min_inliers: int = Field(15, ge=6, description="fewer agreeing matches are no pose")
+    min_share: float = Field(
+        0.15, ge=0, le=1, description="of matches that must agree with a pose at least"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """A view's pose, measured against a local map.
+
+    Attributes
+    ----------
+    local_map : LocalMap
+        What it was measured against.
+    motion : RefinedMotion
+        The pose, ``T_camera_reference``, and its information.
+    matches : (N, 2) int
+        Points of the local map and features of the view that agree.
+    """
+
+    local_map: LocalMap
+    motion: RefinedMotion
+    matches: Matches
+
+    @property
+    def inliers(self) -> int:
+        """How many features agree."""
+        return len(self.matches)
+
+    def matches_by_owner(self) -> dict[int, int]:
+        """Return the number of agreeing matches by keyframe id."""
+        ids, count = np.unique(self.local_map.owners[self.matches[:, 0]], return_counts=True)
+        return dict(zip(ids.tolist(), count.tolist(), strict=True))
+
+
+class Tracker:
+    """Finds a view's pose from feature matches with a local map."""
+
+    def __init__(
+        self, settings: TrackerSettings, motion: MotionSettings, noise: SensorNoise
+    ) -> None:
+        self.settings, self.motion, self.noise = settings, motion, noise
+
+    def track(
+        self, view: View, around: LocalMap, T_camera_reference: FloatArray | None
+    ) -> Located | None:
+        """Return the view's pose, or None if too few features agree on one.
+
+        Points are first looked for where `T_camera_reference`, the prediction, puts them; if that
+        fails, or without a prediction, everywhere.
+        """
+        if T_camera_reference is not None:
+            found = self._guided(view, around, T_camera_reference)
+            if found is not None and found.inliers >= self.settings.guided_inliers:
+                return found
+        return self.locate(view, around)
+
+    def locate(self, view: View, around: LocalMap) -> Located | None:
+        """Return the view's pose by matching all features, the reference keyframe's first."""
+        own = np.flatnonzero(around.owners == around.reference)
+        for rows in (own, np.arange(len(around.points))):
+            pairs = match(around.descriptors[rows], view.features.descriptors, self.settings.ratio)
+            pairs[:, 0] = rows[pairs[:, 0]]
+            coarse = self._solve(view, around, pairs)
+            if coarse is not None:
+                finer = self._guided(view, around, coarse.motion.T_camera_reference, scale=0.25)
+                better = finer is not None and finer.inliers > coarse.inliers
+                return finer if better else coarse
+            if len(own) == len(around.points):
+                break
+        return None
+
+    def _guided(
+        self, view: View, around: LocalMap, T_camera_reference: FloatArray, scale: float = 1.0
+    ) -> Located | None:
+        intrinsics = view.frame.intrinsics
+        radius = self.settings.search_share * scale * intrinsics.width
+        rows, predicted = around.visible(T_camera_reference, intrinsics, radius)
+        allowed = near(predicted, view.features.pixels, radius)
+        pairs = match(
+            around.descriptors[rows], view.features.descriptors, self.settings.ratio, allowed
+        )
+        pairs[:, 0] = rows[pairs[:, 0]]
+        return self._solve(view, around, pairs)
+
+    def _solve(self, view: View, around: LocalMap, pairs: Matches) -> Located | None:
+        """Find the pose that most pairs agree with: RANSAC, then refinement on all of them."""
+        pairs = one_a_position(pairs, view.features.pixels)
+        found = correspondences(around.points, view, pairs)
+        coarse = estimate_motion(found, view.frame.intrinsics, self.noise, self.motion)
+        if coarse is None:
+            return None
+        fine = refine_motion(coarse.T_camera_reference, found, view.frame.intrinsics, self.noise)
+        enough = max(self.settings.min_inliers, self.settings.min_share * len(pairs))
+        return Located(around, fine, pairs[fine.inliers]) if fine.count >= enough else None
+
+
+def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspondences:
+    """Return points paired with what a view measures of them."""
+    columns = pairs[:, 1]
+    return Correspondences(
+        points[pairs[:, 0]], view.features.pixels[columns], view.points_camera[columns, 2]
+    )
+
+
+def one_a_position(pairs: Matches, pixels: FloatArray) -> Matches:
+    """Keep one pair a feature position: SIFT describes a point once for each orientation."""
+    _, first = np.unique(np.rint(pixels[pairs[:, 1]]), axis=0, return_index=True)
+    return pairs[np.sort(first)]
