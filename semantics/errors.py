@@ -1,0 +1,9 @@
+"""Errors of the high layer."""
+
+from __future__ import annotations
+
+from datasets.errors import RoomgraphError
+
+
+class SemanticsError(RoomgraphError):
+    """A model, a label, a graph or a set of training images that cannot be used."""

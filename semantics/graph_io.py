@@ -1,0 +1,143 @@
+"""The semantic graph on disk: node-link JSON and GraphML, each with its reader."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from datasets.files import replacing
+from semantics.documents import read_document, write_document
+from semantics.errors import SemanticsError
+from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from semantics.labels import LabelSpace
+
+SCHEMA, VERSION = "roomgraph/semantic-graph", 1
+_UNITS = {"position": "m", "length": "m", "stamp": "s"}
+
+
+def write_graph_json(path: Path, graph: SemanticGraph) -> None:
+    """Write node-link JSON (what networkx calls ``node_link_graph(edges="links")``)."""
+    content = {
+        "frame": "world",
+        "units": _UNITS,
+        "directed": False,
+        "multigraph": False,
+        "graph": _label_space(graph.labels),
+        "nodes": [
+            {**_node(node), "position": node.position_world.round(6).tolist(),
+             "histogram": node.histogram.round(6).tolist()}
+            for node in graph.nodes
+        ],
+        "links": [
+            {"source": e.source, "target": e.target, "length": round(e.length_m, 6),
+             "kind": str(e.kind)}
+            for e in graph.edges
+        ],
+    }  # fmt: skip
+    write_document(path, SCHEMA, VERSION, content)
+
+
+def read_graph_json(path: Path) -> SemanticGraph:
+    """Read what `write_graph_json` wrote.
+
+    Raises
+    ------
+    SemanticsError
+        The file is missing or is not such a graph.
+    """
+    content = read_document(path, SCHEMA, VERSION)
+    try:
+        return _graph(content["graph"], content["nodes"], content["links"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise _not_understood(path, error) from error
+
+
+def write_graphml(path: Path, graph: SemanticGraph) -> None:
+    """Write GraphML; positions as x, y, z and the histogram as numbers between spaces."""
+    import networkx
+
+    drawn = networkx.Graph(
+        schema=SCHEMA, version=VERSION, frame="world", units=json.dumps(_UNITS),
+        **{key: json.dumps(value) for key, value in _label_space(graph.labels).items()},
+    )  # fmt: skip
+    for node in graph.nodes:
+        x, y, z = (float(value) for value in node.position_world)
+        histogram = " ".join(f"{value:.6g}" for value in node.histogram)
+        values = _node(node)
+        drawn.add_node(values.pop("id"), **values, x=x, y=y, z=z, histogram=histogram)
+    for edge in graph.edges:
+        drawn.add_edge(edge.source, edge.target, length=edge.length_m, kind=str(edge.kind))
+    with replacing(path) as temporary:
+        networkx.write_graphml(drawn, temporary)
+
+
+def read_graphml(path: Path) -> SemanticGraph:
+    """Read what `write_graphml` wrote.
+
+    Raises
+    ------
+    SemanticsError
+        The file is missing or is not such a graph.
+    """
+    import networkx
+
+    try:
+        drawn = networkx.read_graphml(path, node_type=int)
+        labels = {key: json.loads(drawn.graph[key]) for key in ("labels", "colours")}
+        nodes = [
+            {**values, "id": i, "position": [values["x"], values["y"], values["z"]],
+             "histogram": [float(v) for v in (values["histogram"] or "").split()]}
+            for i, values in drawn.nodes(data=True)
+        ]  # fmt: skip
+        links = [{"source": a, "target": b, **values} for a, b, values in drawn.edges(data=True)]
+        return _graph(labels, nodes, links)
+    except OSError as error:
+        raise SemanticsError("file cannot be read", where=path, got=str(error)) from error
+    except (KeyError, TypeError, ValueError, SyntaxError, networkx.NetworkXError) as error:
+        raise _not_understood(path, error) from error
+
+
+def _label_space(labels: LabelSpace) -> dict[str, Any]:
+    return {"labels": list(labels.names), "colours": [list(colour) for colour in labels.colours]}
+
+
+def _node(node: GraphNode) -> dict[str, Any]:
+    return {
+        "id": node.id, "frame": node.frame, "stamp": node.stamp_s, "label": node.label,
+        "label_id": node.label_id, "place": node.place, "score": round(node.score, 6),
+    }  # fmt: skip
+
+
+def _graph(
+    labels: dict[str, Any], nodes: list[dict[str, Any]], links: list[dict[str, Any]]
+) -> SemanticGraph:
+    colours = tuple((int(r), int(g), int(b)) for r, g, b in labels["colours"])
+    return SemanticGraph(
+        LabelSpace(tuple(labels["labels"]), colours),
+        tuple(_read_node(node) for node in nodes),
+        tuple(_read_edge(link) for link in links),
+    )
+
+
+def _read_node(values: dict[str, Any]) -> GraphNode:
+    return GraphNode(
+        int(values["id"]), int(values["frame"]), float(values["stamp"]),
+        np.array(values["position"], dtype=np.float64).reshape(3),
+        str(values["label"]), int(values["label_id"]), str(values["place"]),
+        float(values["score"]), np.array(values["histogram"], dtype=np.float64),
+    )  # fmt: skip
+
+
+def _read_edge(values: dict[str, Any]) -> GraphEdge:
+    source, target = sorted((int(values["source"]), int(values["target"])))
+    return GraphEdge(source, target, float(values["length"]), EdgeKind(values["kind"]))
+
+
+def _not_understood(path: Path, error: Exception) -> SemanticsError:
+    return SemanticsError(
+        "semantic graph not understood", where=path, expected=f"{SCHEMA} version {VERSION}",
+        got=f"{type(error).__name__} {error}",
+    )  # fmt: skip

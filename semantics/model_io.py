@@ -1,0 +1,140 @@
+"""Place models on disk: a folder with model.json and arrays.npz, no pickle in either."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from semantics.classifier import PlaceClassifier
+from semantics.documents import read_document, write_document
+from semantics.errors import SemanticsError
+from semantics.histogram import BagOfFeatures
+from semantics.labels import LabelSpace
+from semantics.model import PlaceModel
+from semantics.neural_gas import NeuralGas
+from slam.features import FeatureSettings
+
+SCHEMA, VERSION = "roomgraph/place-model", 1
+DOCUMENT, ARRAYS = "model.json", "arrays.npz"
+
+
+def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
+    """Write a model to the folder `path`, whole or not at all.
+
+    Raises
+    ------
+    SemanticsError
+        `path` exists and `overwrite` is false, or it holds something that is not a model.
+    """
+    if path.exists():
+        _check_replaceable(path, overwrite)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary.mkdir()
+    try:
+        write_document(temporary / DOCUMENT, SCHEMA, VERSION, _content(model))
+        np.savez_compressed(
+            temporary / ARRAYS,
+            prototypes=model.bag.vocabulary.prototypes_,
+            coef=model.classifier.coef_,
+            intercept=model.classifier.intercept_,
+            sigmoid=model.classifier.sigmoid_,
+        )
+        if path.exists():
+            shutil.rmtree(path)
+        temporary.rename(path)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def load_model(path: Path) -> PlaceModel:
+    """Read a model that `save_model` wrote.
+
+    Raises
+    ------
+    SemanticsError
+        `path` is not a folder with a whole model in it.
+    """
+    if not (path / DOCUMENT).is_file():
+        raise SemanticsError(
+            "not a place model", where=path, expected=f"a folder with {DOCUMENT} and {ARRAYS}",
+            hint="train one with: roomgraph train DATA -o MODEL",
+        )  # fmt: skip
+    content = read_document(path / DOCUMENT, SCHEMA, VERSION)
+    arrays = _read_arrays(path / ARRAYS)
+    try:
+        return _build(content, arrays)
+    except (KeyError, TypeError, ValueError, ValidationError) as error:
+        raise SemanticsError(
+            "place model not understood", where=path, got=f"{type(error).__name__} {error}",
+            hint="train it again",
+        ) from error  # fmt: skip
+
+
+def _content(model: PlaceModel) -> dict[str, Any]:
+    return {
+        "labels": list(model.labels.names),
+        "colours": [list(colour) for colour in model.labels.colours],
+        "classes": [str(name) for name in model.classifier.classes_],
+        "features": model.features.model_dump(),
+        "normalisation": model.normalisation,
+        "min_features": model.min_features,
+        "training": {k: None if v != v else v for k, v in model.training.items()},
+    }
+
+
+def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceModel:
+    classes, prototypes, coef = content["classes"], arrays["prototypes"], arrays["coef"]
+    expected = {
+        "prototypes": (len(prototypes), prototypes.shape[-1]),
+        "coef": (len(classes), len(prototypes)),
+        "intercept": (len(classes),),
+        "sigmoid": (len(classes), 2),
+    }
+    for name, shape in expected.items():
+        if arrays[name].shape != shape or not np.isfinite(arrays[name]).all():
+            raise ValueError(f"{name} of shape {arrays[name].shape}, expected finite {shape}")
+    if content["normalisation"] not in ("l1", "l2", "hellinger"):
+        raise ValueError(f"normalisation {content['normalisation']!r}")
+    labels = LabelSpace(
+        tuple(content["labels"]), tuple((r, g, b) for r, g, b in content["colours"])
+    )
+    if not set(classes) <= set(labels.names):
+        raise ValueError("classes that are no labels")
+    return PlaceModel(
+        labels,
+        BagOfFeatures(NeuralGas.from_prototypes(prototypes)),
+        PlaceClassifier.from_arrays(classes, coef, arrays["intercept"], arrays["sigmoid"]),
+        FeatureSettings(**content["features"]),
+        content["normalisation"],
+        int(content["min_features"]),
+        content["training"],
+    )
+
+
+def _read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in ("prototypes", "coef", "intercept", "sigmoid")}
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        raise SemanticsError(
+            "the model's arrays cannot be read", where=path,
+            got=f"{type(error).__name__} {error}", hint="train it again",
+        ) from error  # fmt: skip
+
+
+def _check_replaceable(path: Path, overwrite: bool) -> None:
+    if not overwrite:
+        raise SemanticsError("the model exists already", where=path, hint="add --overwrite")
+    if not (path / DOCUMENT).is_file() and (not path.is_dir() or any(path.iterdir())):
+        raise SemanticsError(
+            "refusing to replace what is not a place model", where=path,
+            expected=f"a folder with {DOCUMENT}", hint="choose another output",
+        )  # fmt: skip

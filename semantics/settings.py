@@ -1,0 +1,16 @@
+"""The high layer's settings, one part a module."""
+
+from __future__ import annotations
+
+from datasets.settings import Settings
+from semantics.labeller import LabellerSettings
+from semantics.topology import TopologySettings
+from semantics.training import TrainingSettings
+
+
+class SemanticsSettings(Settings):
+    """All settings of the high layer."""
+
+    training: TrainingSettings = TrainingSettings()
+    labeller: LabellerSettings = LabellerSettings()
+    topology: TopologySettings = TopologySettings()

@@ -1,0 +1,196 @@
+"""The semantic topological map: a node per metre travelled, with place names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from datasets.settings import Settings
+from semantics.errors import SemanticsError
+from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from semantics.instances import InstanceSettings, find_place
+from semantics.labeller import FrameLabel
+from semantics.labels import UNKNOWN, LabelSpace
+from slam.tracking import Anchor
+
+Poses = Mapping[int, NDArray[np.float64]]
+
+# Steps below this are jitter of the pose estimate, not travel.
+_MIN_STEP_M = 0.05
+
+
+class TopologySettings(Settings):
+    """When nodes are dropped and joined."""
+
+    node_distance_m: float = Field(
+        1.0, gt=0, description="metres travelled between nodes (paper: d = 1)"
+    )
+    revisit_radius_m: float = Field(
+        0.6, ge=0, description="a node this near to an older one is joined to it"
+    )
+    revisit_gap: int = Field(
+        5, ge=2, description="nodes that have to lie between the two along the path"
+    )
+    instances: InstanceSettings = InstanceSettings()
+
+
+@dataclass(frozen=True, slots=True)
+class _Node:
+    frame: int
+    stamp_s: float
+    anchor: Anchor
+    label: str
+    label_id: int
+    place: str
+    score: float
+    histogram: NDArray[np.float64]
+
+
+class TopologicalMap:
+    """Grows a graph along the path (paper, section 3.3).
+
+    A node is dropped at the first frame with a pose and after each further metre travelled. It
+    keeps the frame's voted label, its histogram as visual memory, and the anchor of its pose:
+    positions are worked out from the keyframes' poses when they are asked for, so that nodes move
+    with the map when a loop closes.
+
+    A node is given the place of the node before it if both have the same label and there is no
+    jump in between (a camera found again elsewhere): one does not step from an office into another
+    without passing something else. Otherwise `find_place` decides. So
+    a mislabelled node opens a ghost place only under the paper's rule: if it is far from all
+    nodes of that label and looks like none of them. Nodes labelled `unknown` share the place
+    `unknown`.
+
+    Parameters
+    ----------
+    settings : TopologySettings
+        When nodes are dropped and joined, and when places are different.
+    labels : LabelSpace
+        Ids and names of the labels.
+    """
+
+    def __init__(self, settings: TopologySettings, labels: LabelSpace) -> None:
+        self.settings = settings
+        self.labels = labels
+        self._nodes: list[_Node] = []
+        self._waypoint: Anchor | None = None
+        self._travelled_m = 0.0
+        self._n_places: dict[str, int] = {}
+
+    def __len__(self) -> int:
+        return len(self._nodes)
+
+    def update(self, frame_label: FrameLabel, T_world_keyframe: Poses) -> bool:
+        """Follow the path by one frame; return whether a node was dropped. Lost frames don't count.
+
+        Parameters
+        ----------
+        frame_label : FrameLabel
+            The frame with its label.
+        T_world_keyframe : mapping of int to (4, 4) float64
+            Current pose of each keyframe.
+
+        Raises
+        ------
+        SemanticsError
+            A keyframe that a node or the frame is anchored to has no pose.
+        """
+        anchor = frame_label.tracking.anchor
+        if anchor is None:
+            return False
+        if self._waypoint is not None:
+            here, there = _position(anchor, T_world_keyframe), self._waypoint
+            step = float(np.linalg.norm(here - _position(there, T_world_keyframe)))
+            if step < _MIN_STEP_M:
+                return False
+            self._travelled_m += step
+        self._waypoint = anchor
+        if self._nodes and self._travelled_m < self.settings.node_distance_m:
+            return False
+        self._travelled_m = 0.0
+        self._drop(frame_label, anchor, T_world_keyframe)
+        return True
+
+    def snapshot(self, T_world_keyframe: Poses) -> SemanticGraph:
+        """Return the graph as it lies in the world now.
+
+        Parameters
+        ----------
+        T_world_keyframe : mapping of int to (4, 4) float64
+            Current pose of each keyframe.
+
+        Raises
+        ------
+        SemanticsError
+            A keyframe that a node is anchored to has no pose.
+        """
+        nodes = tuple(
+            GraphNode(
+                i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
+                node.label, node.label_id, node.place, node.score, node.histogram,
+            )
+            for i, node in enumerate(self._nodes)
+        )  # fmt: skip
+        positions = np.array([node.position_world for node in nodes]).reshape(-1, 3)
+        return SemanticGraph(self.labels, nodes, self._edges(positions))
+
+    def _drop(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> None:
+        tracking = frame_label.tracking
+        self._nodes.append(
+            _Node(
+                tracking.index, tracking.stamp_s, anchor, frame_label.label, frame_label.label_id,
+                self._place_of(frame_label, anchor, T_world_keyframe),
+                frame_label.score, frame_label.histogram,
+            )
+        )  # fmt: skip
+
+    def _place_of(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> str:
+        label = frame_label.label
+        if label == UNKNOWN:
+            return UNKNOWN
+        here, last = _position(anchor, T_world_keyframe), self._nodes[-1] if self._nodes else None
+        if last is not None and last.label == label:
+            step = np.linalg.norm(here - _position(last.anchor, T_world_keyframe))
+            if step <= self.settings.instances.min_distance_m:
+                return last.place
+        known = [node for node in self._nodes if node.label == label]
+        place = find_place(
+            frame_label.histogram, here,
+            [node.histogram for node in known],
+            np.array([_position(node.anchor, T_world_keyframe) for node in known]),
+            [node.place for node in known], self.settings.instances,
+        )  # fmt: skip
+        if place is None:
+            self._n_places[label] = self._n_places.get(label, 0) + 1
+            place = f"{label}{self._n_places[label]}"
+        return place
+
+    def _edges(self, positions: NDArray[np.float64]) -> tuple[GraphEdge, ...]:
+        """Join successive nodes, and each node to the nearest one of an earlier passing."""
+        pairs = [(i, i + 1, EdgeKind.PATH) for i in range(len(positions) - 1)]
+        for i in range(self.settings.revisit_gap + 1, len(positions)):
+            older = positions[: i - self.settings.revisit_gap]
+            lengths = np.linalg.norm(older - positions[i], axis=1)
+            nearest = int(lengths.argmin())
+            if lengths[nearest] <= self.settings.revisit_radius_m:
+                pairs.append((nearest, i, EdgeKind.REVISIT))
+        return tuple(
+            GraphEdge(a, b, float(np.linalg.norm(positions[a] - positions[b])), kind)
+            for a, b, kind in pairs
+        )
+
+
+def _position(anchor: Anchor, T_world_keyframe: Poses) -> NDArray[np.float64]:
+    """Return where the camera of `anchor` is now (3,), metres."""
+    try:
+        T = T_world_keyframe[anchor.keyframe]
+    except KeyError as error:
+        raise SemanticsError(
+            "a node's keyframe has no pose", where=f"keyframe {anchor.keyframe}",
+            expected="the pose of every keyframe",
+        ) from error  # fmt: skip
+    return np.asarray(T[:3, :3] @ anchor.T_keyframe_camera[:3, 3] + T[:3, 3])
