@@ -98,10 +98,10 @@ def align_planes(
         if step_number == settings.iterations:
             break
         moved = poses.logarithm(T @ poses.inverse(T_target_source))
-        step: FloatArray = -1.0 * np.linalg.solve(
+        step: Any = np.linalg.solve(
             H + prior_information, gradient + prior_information @ moved
         )
-        T = poses.exponential(step) @ T
+        T = poses.exponential(-step) @ T
         if np.abs(step).max() < 1e-5:
             break
     return PlaneAlignment(T, H, before, rmse, len(pairs))

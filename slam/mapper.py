@@ -32,8 +32,8 @@ class KeyframeSettings(Settings):
     min_overlap: float = Field(
         0.75, gt=0, le=1, description="of the reference's points, the least still in view"
     )
-    min_inlier_share: float = Field(
-        0.35, gt=0, le=1, description="of the points in view, the least still matched"
+    min_explained: float = Field(
+        0.3, gt=0, le=1, description="of the view's features, the least found in the local map"
     )
     max_baseline_share: float = Field(
         0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
@@ -118,11 +118,11 @@ class Mapper:
         pixels = view.frame.intrinsics.project(ahead)
         size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
         overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / max(1, len(points))
-        matched = located.matches_by_owner().get(reference.id, 0)
+        features = int(view.has_point.sum())
         depth = float(np.median(points[:, 2])) if len(points) else 1.0
         return bool(
             overlap < self.settings.min_overlap
-            or matched < self.settings.min_inlier_share * overlap * len(points)
+            or located.inliers < self.settings.min_explained * features
             or np.linalg.norm(T[:3, 3]) > self.settings.max_baseline_share * depth
             or np.degrees(poses.rotation_angle(T)) > self.settings.max_angle_deg
         )

@@ -103,7 +103,7 @@ def _residuals(
     by_point[:, 1, 1] = intrinsics.fy / z
     by_point[:, 0, 2] = -intrinsics.fx * projected[:, 0] / z
     by_point[:, 1, 2] = -intrinsics.fy * projected[:, 1] / z
-    by_point[:, 2, 2] = -known / z**2
+    by_point[:, 2, 2] = np.where(known, -1.0 / z**2, 0.0)
     return residual, np.concatenate([-by_point @ poses.hat(points), by_point], axis=2)
 
 
