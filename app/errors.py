@@ -1,0 +1,9 @@
+"""Errors of the application."""
+
+from __future__ import annotations
+
+from datasets.errors import RoomgraphError
+
+
+class AppError(RoomgraphError):
+    """A command, a setting or an output that cannot be used."""
