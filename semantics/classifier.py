@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Hashable, Sequence
 from typing import Any, Self
 
@@ -164,6 +165,10 @@ def _check_y(y: ArrayLike, n_samples: int) -> NDArray[Any]:
         raise ValueError("PlaceClassifier requires y to be passed, but the target y is None")
     target = np.asarray(y)
     if target.ndim == 2 and target.shape[1] == 1:
+        from sklearn.exceptions import DataConversionWarning
+
+        message = "A column-vector y was passed when a 1d array was expected"
+        warnings.warn(message, DataConversionWarning, stacklevel=3)
         target = target[:, 0]
     if target.shape != (n_samples,):
         raise ValueError(f"y should be a 1d array of {n_samples} classes, got shape {target.shape}")

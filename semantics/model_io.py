@@ -121,8 +121,8 @@ def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceMod
 
 def _read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     try:
-        with np.load(path, allow_pickle=False) as file:
-            return {name: file[name] for name in ("prototypes", "coef", "intercept", "sigmoid")}
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in ("prototypes", "coef", "intercept", "sigmoid")}
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise SemanticsError(
             "the model's arrays cannot be read", where=path,

@@ -11,6 +11,8 @@ from semantics.estimator import Estimator
 
 # A unit whose neighbourhood weight is below this moves by nothing that float32 would notice.
 _NEGLIGIBLE = 1e-3
+# With fewer steps the ranges shrink faster than the prototypes can spread.
+_MIN_STEPS = 500
 
 
 class NeuralGas(Estimator):
@@ -29,7 +31,7 @@ class NeuralGas(Estimator):
     n_epochs : int
         Passes over the data, the paper's t_max.
     batch_size : int
-        Samples ranked at once.
+        Samples ranked at once, at most.
     initial_step, final_step : float
         eps at the first and the last batch, in (0, 1].
     initial_range, final_range : float
@@ -90,11 +92,7 @@ class NeuralGas(Estimator):
         # The mean is taken off while learning: |w|^2 - 2 w.x loses fewer digits near the origin.
         mean = samples.mean(axis=0)
         prototypes = samples[self._first_choice(len(samples), random)] - mean
-        batches = [
-            order[i : i + self.batch_size]
-            for order in (random.permutation(len(samples)) for _ in range(self.n_epochs))
-            for i in range(0, len(samples), self.batch_size)
-        ]
+        batches = self._batches(len(samples), random)
         first_range = self.n_vectors / 2 if self.initial_range is None else self.initial_range
         for progress, batch in zip(np.linspace(0, 1, len(batches)), batches, strict=True):
             step = self.initial_step * (self.final_step / self.initial_step) ** progress
@@ -134,6 +132,12 @@ class NeuralGas(Estimator):
     def _first_choice(self, n_samples: int, random: np.random.Generator) -> NDArray[np.int64]:
         """Return the samples that the prototypes start on, repeated only if there are too few."""
         return random.choice(n_samples, self.n_vectors, replace=n_samples < self.n_vectors)
+
+    def _batches(self, n_samples: int, random: np.random.Generator) -> list[NDArray[np.int64]]:
+        """Return the samples of each step; smaller batches where the steps would be too few."""
+        size = max(1, min(self.batch_size, self.n_epochs * n_samples // _MIN_STEPS))
+        orders = [random.permutation(n_samples) for _ in range(self.n_epochs)]
+        return [order[i : i + size] for order in orders for i in range(0, n_samples, size)]
 
     def _check_params(self) -> None:
         at_least_one = {n: getattr(self, n) for n in ("n_vectors", "n_epochs", "batch_size")}

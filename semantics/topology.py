@@ -21,6 +21,7 @@ Poses = Mapping[int, NDArray[np.float64]]
 
 # Steps below this are jitter of the pose estimate, not travel.
 _MIN_STEP_M = 0.05
+_ROUNDING_M = 1e-9
 
 
 class TopologySettings(Settings):
@@ -109,9 +110,12 @@ class TopologicalMap:
                 return False
             self._travelled_m += step
         self._waypoint = anchor
-        if self._nodes and self._travelled_m < self.settings.node_distance_m:
-            return False
-        self._travelled_m = 0.0
+        if self._nodes:
+            beyond = self._travelled_m - self.settings.node_distance_m
+            if beyond < -_ROUNDING_M:
+                return False
+            # What was walked beyond the metre counts for the next: nodes do not fall behind.
+            self._travelled_m = max(0.0, beyond) % self.settings.node_distance_m
         self._drop(frame_label, anchor, T_world_keyframe)
         return True
 

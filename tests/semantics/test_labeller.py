@@ -1,0 +1,112 @@
+import time
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from semantics.labeller import LabellerSettings, PlaceLabeller
+from tests.semantics.helpers import descriptors_of, features, tiny_model, tracking
+
+
+@pytest.fixture(scope="module")
+def model():
+    return tiny_model()
+
+
+def run(model, words, window):
+    labeller = PlaceLabeller(model, LabellerSettings(window=window))
+    released = [labeller.process(tracking(i, word=word)) for i, word in enumerate(words)]
+    return released, labeller.finish()
+
+
+def test_labels_come_late_by_half_a_window_and_in_order(model):
+    released, rest = run(model, [0] * 10, window=5)
+    assert [len(labels) for labels in released] == [0, 0] + [1] * 8
+    assert [f.tracking.index for labels in [*released, rest] for f in labels] == list(range(10))
+
+
+def test_outliers_are_voted_down(model):
+    released, rest = run(model, [0, 0, 0, 2, 0, 0, 0, 1, 1, 1, 1], window=5)
+    labels = [f for part in [*released, rest] for f in part]
+    assert [f.label for f in labels] == ["corridor"] * 7 + ["kitchen"] * 4
+    assert labels[3].raw_label == "office"
+    assert all(0 < f.score <= 1 for f in labels)
+
+
+def test_the_vote_is_a_brute_force_majority(model):
+    words = np.random.default_rng(0).integers(0, 3, 60)
+    released, rest = run(model, words, window=7)
+    labels = [f for part in [*released, rest] for f in part]
+    assert len(labels) == 60
+    for i, f in enumerate(labels):
+        votes = np.bincount(words[max(0, i - 3) : i + 4], minlength=3)
+        assert votes[f.label_id - 1] == votes.max()
+
+
+def test_short_sequences_and_windows_of_one(model):
+    released, rest = run(model, [2, 0], window=9)
+    assert released == [[], []]
+    assert len(rest) == 2
+    released, rest = run(model, [2, 0], window=1)
+    assert [f.label for labels in released for f in labels] == ["office", "corridor"]
+    assert rest == []
+
+
+def test_featureless_frames_abstain(model):
+    labeller = PlaceLabeller(model, LabellerSettings(window=3))
+    blank = tracking(1)
+    object.__setattr__(blank, "features", features(descriptors_of(0, 0)))
+    labels = [
+        f
+        for item in (tracking(0, word=2), blank, tracking(2, word=2))
+        for f in labeller.process(item)
+    ] + labeller.finish()
+    assert [f.label for f in labels] == ["office"] * 3
+    assert labels[1].raw_label == "unknown"
+
+
+def test_only_featureless_frames_are_unknown(model):
+    labeller = PlaceLabeller(model, LabellerSettings(window=3))
+    blank = tracking(0)
+    object.__setattr__(blank, "features", features(descriptors_of(0, 0)))
+    (label,) = labeller.process(blank) + labeller.finish()
+    assert (label.label, label.label_id, label.score) == ("unknown", 0, 0.0)
+
+
+def test_without_a_model_everything_is_unknown_at_once():
+    labeller = PlaceLabeller(None, LabellerSettings())
+    (label,) = labeller.process(tracking(0))
+    assert (label.label, label.label_id, label.score) == ("unknown", 0, 0.0)
+    assert labeller.finish() == []
+
+
+def test_the_window_is_odd():
+    with pytest.raises(ValidationError, match="odd"):
+        LabellerSettings(window=8)
+
+
+def test_is_cheap():
+    """A frame of 1000 SIFT features against 100 words."""
+    from semantics.classifier import PlaceClassifier
+    from semantics.histogram import BagOfFeatures
+    from semantics.labels import LabelSpace
+    from semantics.model import PlaceModel
+    from semantics.neural_gas import NeuralGas
+    from slam.features import FeatureSettings
+
+    rng = np.random.default_rng(0)
+    bag = BagOfFeatures(NeuralGas.from_prototypes(rng.random((100, 128), np.float32)))
+    names = [f"room{i}" for i in range(8)]
+    classifier = PlaceClassifier.from_arrays(
+        names, rng.random((8, 100)), rng.random(8), np.ones((8, 2))
+    )
+    model = PlaceModel(LabelSpace.of(names), bag, classifier, FeatureSettings())
+    labeller = PlaceLabeller(model, LabellerSettings())
+    item = tracking(0)
+    object.__setattr__(item, "features", features(rng.random((1000, 128), np.float32)))
+    times = []
+    for _ in range(30):
+        start = time.perf_counter()
+        labeller.process(item)
+        times.append(time.perf_counter() - start)
+    assert np.median(times) < 0.01
