@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,34 +24,113 @@ class InstanceSettings(Settings):
     )
 
 
-def find_place(
-    histogram: NDArray[np.float64],
-    position: NDArray[np.float64],
-    memories: Sequence[NDArray[np.float64]],
-    positions: NDArray[np.float64],
-    places: Sequence[str],
-    settings: InstanceSettings,
-) -> str | None:
-    """Return the known place of its kind that a node belongs to, None if it is a new one.
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What was seen where.
 
-    The rule of section 3.3: a node is of a new place if it differs from all memories of a place
-    by more than `min_difference` and lies more than `min_distance_m` from all of its nodes. A
-    return to a known place is caught by the second condition. Where several places qualify, the
-    one with the nearest node within the distance wins, else the one with the most similar view.
-
-    Parameters
+    Attributes
     ----------
-    histogram, position : (Q,) and (3,) float64
-        Of the node in question.
-    memories, positions, places : (N, ...) sequences
-        Histograms, positions and place names of all nodes with the same label.
+    position : (3,) float64
+        World, metres.
+    histogram : (Q,) float64
+        Appearance, of unit length.
     """
-    if not places:
-        return None
-    distances = np.linalg.norm(positions - position, axis=1)
-    if distances.min() <= settings.min_distance_m:
-        return places[int(distances.argmin())]
-    differences = np.linalg.norm(np.array(memories) - histogram, axis=1)
-    if differences.min() <= settings.min_difference:
-        return places[int(differences.argmin())]
-    return None
+
+    position: NDArray[np.float64]
+    histogram: NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class _Stay:
+    place: str = ""
+    is_settled: bool = False
+
+
+class PlaceNames:
+    """Decides which place of its kind a node belongs to (paper, section 3.3).
+
+    The paper's rule: a node is of a new place if it differs from all memories of the known ones
+    by more than `min_difference` and lies more than `min_distance_m` from all their nodes; the
+    second condition keeps a return to a known place from opening another.
+
+    The rule is put to a stay as a whole: the nodes of one label that hang together in space. Were
+    each node asked alone, the first one in a second office, still in its door, would often
+    resemble some view of the first office, and all that follow would be near that first one. So a
+    stay that is far from the known nodes, but resembles one, bears that one's name for the time
+    being. It is settled by its first node that is near a known place after all, or that differs
+    from everything known: then it is a new place, from its beginning.
+    """
+
+    def __init__(self, settings: InstanceSettings) -> None:
+        self.settings = settings
+        self._stays: list[_Stay] = []
+        self._count: Counter[str] = Counter()
+
+    def name(self, stay: int) -> str:
+        """Return the place that a stay is thought to be in."""
+        return self._stays[stay].place
+
+    def assign(
+        self,
+        label: str,
+        here: Sight,
+        known: Sequence[Sight],
+        stays: Sequence[int],
+        follows_last: bool,
+    ) -> int:
+        """Return the stay that a new node belongs to; it may open one, or settle its name.
+
+        Parameters
+        ----------
+        label : str
+            The node's.
+        here : Sight
+            What the node saw where.
+        known : sequence of Sight
+            The same of all earlier nodes with this label, at their current positions, in order.
+        stays : sequence of int
+            The stay of each of these.
+        follows_last : bool
+            Whether the last of these is the node just before the new one: one does not step from
+            one office into the next without passing something else.
+        """
+        distances = _lengths([sight.position - here.position for sight in known])
+        stay = self._find(distances, stays, follows_last)
+        if not self._stays[stay].is_settled:
+            others = [i for i, other in enumerate(stays) if other != stay]
+            differences = _lengths([known[i].histogram - here.histogram for i in others])
+            names = [self.name(stays[i]) for i in others]
+            self._stays[stay] = self._judge(label, distances[others], differences, names)
+        return stay
+
+    def _find(
+        self, distances: NDArray[np.float64], stays: Sequence[int], follows_last: bool
+    ) -> int:
+        """Return the stay that hangs together with a node, a new one if there is none."""
+        near = distances <= self.settings.min_distance_m
+        if follows_last and near[-1]:
+            return stays[-1]
+        if near.any():
+            return stays[int(distances.argmin())]
+        self._stays.append(_Stay())
+        return len(self._stays) - 1
+
+    def _judge(
+        self,
+        label: str,
+        distances: NDArray[np.float64],
+        differences: NDArray[np.float64],
+        names: Sequence[str],
+    ) -> _Stay:
+        """Apply the rule to a node against all nodes (N,) of other stays and their names."""
+        if len(names) and distances.min() <= self.settings.min_distance_m:
+            return _Stay(names[int(distances.argmin())], is_settled=True)
+        if len(names) and differences.min() <= self.settings.min_difference:
+            return _Stay(names[int(differences.argmin())], is_settled=False)
+        self._count[label] += 1
+        return _Stay(f"{label}{self._count[label]}", is_settled=True)
+
+
+def _lengths(vectors: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Return the lengths (N,) of N vectors."""
+    return np.array([np.linalg.norm(vector) for vector in vectors], dtype=np.float64)

@@ -12,7 +12,7 @@ from pydantic import Field
 from datasets.settings import Settings
 from semantics.errors import SemanticsError
 from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
-from semantics.instances import InstanceSettings, find_place
+from semantics.instances import InstanceSettings, PlaceNames, Sight
 from semantics.labeller import FrameLabel
 from semantics.labels import UNKNOWN, LabelSpace
 from slam.tracking import Anchor
@@ -46,7 +46,7 @@ class _Node:
     anchor: Anchor
     label: str
     label_id: int
-    place: str
+    stay: int | None
     score: float
     histogram: NDArray[np.float64]
 
@@ -59,12 +59,9 @@ class TopologicalMap:
     positions are worked out from the keyframes' poses when they are asked for, so that nodes move
     with the map when a loop closes.
 
-    A node is given the place of the node before it if both have the same label and there is no
-    jump in between (a camera found again elsewhere): one does not step from an office into another
-    without passing something else. Otherwise `find_place` decides. So
-    a mislabelled node opens a ghost place only under the paper's rule: if it is far from all
-    nodes of that label and looks like none of them. Nodes labelled `unknown` share the place
-    `unknown`.
+    Which place of its kind a node belongs to is decided by `PlaceNames`. So a mislabelled node
+    opens a ghost place only under the paper's rule: if it is far from all nodes of that label and
+    looks like none of them. Nodes labelled `unknown` share the place `unknown`.
 
     Parameters
     ----------
@@ -80,7 +77,7 @@ class TopologicalMap:
         self._nodes: list[_Node] = []
         self._waypoint: Anchor | None = None
         self._travelled_m = 0.0
-        self._n_places: dict[str, int] = {}
+        self._names = PlaceNames(settings.instances)
 
     def __len__(self) -> int:
         return len(self._nodes)
@@ -135,7 +132,7 @@ class TopologicalMap:
         nodes = tuple(
             GraphNode(
                 i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
-                node.label, node.label_id, node.place, node.score, node.histogram,
+                node.label, node.label_id, self._place(node), node.score, node.histogram,
             )
             for i, node in enumerate(self._nodes)
         )  # fmt: skip
@@ -147,31 +144,26 @@ class TopologicalMap:
         self._nodes.append(
             _Node(
                 tracking.index, tracking.stamp_s, anchor, frame_label.label, frame_label.label_id,
-                self._place_of(frame_label, anchor, T_world_keyframe),
+                self._stay(frame_label, anchor, T_world_keyframe),
                 frame_label.score, frame_label.histogram,
             )
         )  # fmt: skip
 
-    def _place_of(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> str:
+    def _stay(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> int | None:
         label = frame_label.label
         if label == UNKNOWN:
-            return UNKNOWN
-        here, last = _position(anchor, T_world_keyframe), self._nodes[-1] if self._nodes else None
-        if last is not None and last.label == label:
-            step = np.linalg.norm(here - _position(last.anchor, T_world_keyframe))
-            if step <= self.settings.instances.min_distance_m:
-                return last.place
+            return None
         known = [node for node in self._nodes if node.label == label]
-        place = find_place(
-            frame_label.histogram, here,
-            [node.histogram for node in known],
-            np.array([_position(node.anchor, T_world_keyframe) for node in known]),
-            [node.place for node in known], self.settings.instances,
-        )  # fmt: skip
-        if place is None:
-            self._n_places[label] = self._n_places.get(label, 0) + 1
-            place = f"{label}{self._n_places[label]}"
-        return place
+        return self._names.assign(
+            label,
+            Sight(_position(anchor, T_world_keyframe), frame_label.histogram),
+            [Sight(_position(node.anchor, T_world_keyframe), node.histogram) for node in known],
+            [node.stay for node in known if node.stay is not None],
+            follows_last=bool(self._nodes) and self._nodes[-1].label == label,
+        )
+
+    def _place(self, node: _Node) -> str:
+        return UNKNOWN if node.stay is None else self._names.name(node.stay)
 
     def _edges(self, positions: NDArray[np.float64]) -> tuple[GraphEdge, ...]:
         """Join successive nodes, and each node to the nearest one of an earlier passing."""

@@ -4,7 +4,6 @@ import pytest
 from datasets.poses import pose
 from semantics.errors import SemanticsError
 from semantics.graph import EdgeKind
-from semantics.instances import InstanceSettings, find_place
 from semantics.topology import TopologicalMap, TopologySettings
 from tests.semantics.helpers import frame_label, label_space, view
 
@@ -114,19 +113,6 @@ def test_a_jump_to_another_office_opens_it():
 def test_unknown_is_not_numbered():
     graph = walk([(3, "unknown", view(0)), (9, "office", view(1)), (20, "unknown", view(2))])
     assert graph.places == ("unknown", "office1")
-
-
-def test_the_place_with_the_nearest_node_wins():
-    settings = InstanceSettings()
-    memories, positions = [view(0), view(1)], np.array([[0.0, 0, 0], [8, 0, 0]])
-    names = ["office1", "office2"]
-    at = lambda x, k: find_place(view(k), np.array([x, 0, 0]), memories, positions, names, settings)  # noqa: E731
-    assert at(4.5, 0) == "office2"
-    assert at(3.5, 1) == "office1"
-    assert at(30, 0) == "office1"
-    assert at(30, 1) == "office2"
-    assert at(30, 2) is None
-    assert find_place(view(0), np.zeros(3), [], np.empty((0, 3)), [], settings) is None
 
 
 def test_passing_again_joins_the_graph_to_itself():
