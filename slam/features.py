@@ -48,6 +48,11 @@ class Features:
     descriptors: NDArray[Any]
     sizes: NDArray[np.float32]
 
+    @classmethod
+    def none(cls, length: int = 128) -> Features:
+        """Return no features, of descriptors of some length."""
+        return cls(np.empty((0, 2)), np.empty((0, length), np.float32), np.empty(0, np.float32))
+
     def __len__(self) -> int:
         return len(self.pixels)
 
@@ -89,7 +94,7 @@ class FeatureExtractor:
             grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
         keypoints, descriptors = self._detector.detectAndCompute(grey, None)
         if descriptors is None:
-            return _no_features(32 if self.is_binary else 128)
+            return Features.none(32 if self.is_binary else 128)
         order = np.argsort([-keypoint.response for keypoint in keypoints], kind="stable")
         pixels = np.array([keypoint.pt for keypoint in keypoints])[order]
         sizes = np.array([keypoint.size for keypoint in keypoints], dtype=np.float32)[order]
@@ -105,12 +110,6 @@ def root(descriptors: NDArray[np.float32]) -> NDArray[np.float32]:
     """Turn SIFT descriptors (N, 128) into RootSIFT of SIFT's norm, 512 (Arandjelovic, 2012)."""
     total = np.maximum(descriptors.sum(axis=1, keepdims=True), 1e-6)
     return np.asarray(np.sqrt(descriptors / total) * 512.0, dtype=np.float32)
-
-
-def _no_features(length: int) -> Features:
-    return Features(
-        np.empty((0, 2)), np.empty((0, length), np.float32), np.empty(0, dtype=np.float32)
-    )
 
 
 def _create(settings: FeatureSettings) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -86,3 +86,7 @@ class Tracking:
     is_keyframe: bool
     closures: tuple[LoopClosure, ...]
     features: Features
+
+    def without_features(self) -> Tracking:
+        """Return the same account without the features, small enough to keep for every frame."""
+        return replace(self, features=Features.none())

@@ -1,0 +1,38 @@
+"""``roomgraph demo``: the whole job on rendered buildings."""
+
+from __future__ import annotations
+
+from app import options
+
+
+def demo(
+    output: options.OutputOption = None,
+    visualize: options.VisualizeOption = False,
+    save_rrd: options.SaveRrdOption = True,
+    seed: options.SeedOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+    verbose: options.VerboseOption = False,
+) -> None:
+    """Do the whole job on rendered buildings; needs no data.
+
+    Renders two office floors (kept in a cache), learns the places of one by day and by night,
+    then maps and labels the other, which it has never seen.
+
+    Examples:
+
+      roomgraph demo
+
+      roomgraph demo -o out --visualize
+    """
+    from app.config import load_settings
+    from app.console import Terminal
+    from app.demo import run_demo
+    from app.report import summary
+    from app.session import Showing
+
+    terminal = Terminal(quiet, verbose)
+    settings = load_settings(None, {"seed": seed})
+    folder, metrics = run_demo(settings, output, overwrite, Showing(visualize, save_rrd), terminal)
+    terminal.say(summary(metrics))
+    terminal.say(f"Look at it with: roomgraph view {folder.root}")

@@ -1,0 +1,56 @@
+"""``roomgraph run``: map and label a sequence."""
+
+from __future__ import annotations
+
+from app import options
+
+
+def run(
+    sequence: options.SequenceArgument,
+    output: options.OutputOption = None,
+    dataset: options.DatasetOption = None,
+    camera: options.CameraOption = None,
+    depth_scale: options.DepthScaleOption = None,
+    model: options.ModelOption = None,
+    config: options.ConfigOption = None,
+    start: options.StartOption = 0,
+    frames: options.FramesOption = None,
+    stride: options.StrideOption = 1,
+    max_depth: options.MaxDepthOption = None,
+    visualize: options.VisualizeOption = False,
+    save_rrd: options.SaveRrdOption = True,
+    seed: options.SeedOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+    verbose: options.VerboseOption = False,
+) -> None:
+    """Map and label an RGB-D sequence.
+
+    Finds the camera's motion, builds a coloured map and, with a place model, says what kind of
+    place each part is. Writes a run's folder: trajectory, map, topological graph, metrics and a
+    Rerun recording.
+
+    Examples:
+
+      roomgraph run rgbd_dataset_freiburg1_room -o out
+
+      roomgraph run my_recording --model places --visualize
+
+      roomgraph run frames/ --dataset folder --camera camera.json --depth-scale 1000
+    """
+    from app.config import load_settings
+    from app.console import Terminal
+    from app.input import open_input
+    from app.report import summary
+    from app.session import Showing, map_sequence
+    from semantics.model_io import load_model
+
+    terminal = Terminal(quiet, verbose)
+    settings = load_settings(config, {"seed": seed, "slam.max_depth_m": max_depth})
+    opened = open_input(sequence, dataset, camera, depth_scale, start, frames, stride)
+    places = load_model(model) if model is not None else None
+    folder, metrics = map_sequence(
+        opened, settings, places, output, overwrite, Showing(visualize, save_rrd), terminal
+    )
+    terminal.say(summary(metrics))
+    terminal.say(f"Written to {folder.root}; look at it with: roomgraph view {folder.root}")

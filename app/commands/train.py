@@ -1,0 +1,53 @@
+"""``roomgraph train``: learn a place model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app import options
+
+
+def train(
+    data: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="DATA...", help="Folders class/image, or sequences with places.csv."
+        ),
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="MODEL", help="Folder of the model.")
+    ],
+    config: options.ConfigOption = None,
+    seed: options.SeedOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+    verbose: options.VerboseOption = False,
+) -> None:
+    """Learn visual words and a place classifier from labelled images.
+
+    Each DATA is a folder with a subfolder of images for each class, or an RGB-D sequence with a
+    places.csv (timestamp,label).
+
+    Examples:
+
+      roomgraph train photos/ -o places
+
+      roomgraph train day_walk night_walk -o places
+    """
+    from app.config import load_settings
+    from app.console import Terminal
+    from app.training import train_model
+
+    terminal = Terminal(quiet, verbose)
+    settings = load_settings(config, {"seed": seed})
+    with terminal.logging():
+        model = train_model(data, output, settings, overwrite, terminal)
+    images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())
+    terminal.say(f"Learned {len(model.labels) - 1} places from: {images}")
+    terminal.say(
+        f"Right on held-out visits: {model.training['cross_validated_accuracy']:.1%} of images. "
+        f"Model written to {output}"
+    )

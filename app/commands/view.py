@@ -1,0 +1,45 @@
+"""``roomgraph view``: open a run in Rerun."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def view(
+    run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
+    web: Annotated[
+        bool, typer.Option("--web", help="In the browser, on this machine only.")
+    ] = False,
+) -> None:
+    """Open a run's recording in Rerun.
+
+    Examples:
+
+      roomgraph view results/kitchen/latest
+
+      roomgraph view out --web
+    """
+    import subprocess
+    import sys
+
+    from app.errors import AppError
+    from app.run_folder import RunFolder
+
+    recording = RunFolder(run).recording
+    if not recording.exists():
+        raise AppError(
+            "no recording to view", where=recording, expected="a run made with --save-rrd",
+            hint="run the sequence again without --no-rrd",
+        )  # fmt: skip
+    command = [sys.executable, "-m", "rerun", str(recording)]
+    if web:
+        command += ["--web-viewer", "--bind", "127.0.0.1"]
+    status = subprocess.run(command, check=False).returncode
+    if status:
+        raise AppError(
+            "the Rerun viewer did not start", where=recording, got=f"exit status {status}",
+            hint="without a display, try: roomgraph view RUN --web",
+        )  # fmt: skip

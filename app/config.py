@@ -1,0 +1,124 @@
+"""All settings: order flag > TOML file > default."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import Field, ValidationError
+
+from app.errors import AppError
+from app.rerun_settings import ViewerSettings
+from datasets.files import write_text
+from datasets.settings import Settings
+from semantics.settings import SemanticsSettings
+from slam.slam import SlamSettings
+
+
+class RecordingSettings(Settings):
+    """What is written on the way."""
+
+    map_every: int = Field(
+        25, ge=1, description="keyframes between two drawings of the growing map in the viewer"
+    )
+    checkpoint_every: int = Field(
+        200, ge=1, description="frames between two writings of the trajectory so far"
+    )
+
+
+class AppSettings(Settings):
+    """Everything that can be set for a run."""
+
+    seed: int = Field(0, ge=0, description="of all random choices")
+    slam: SlamSettings = SlamSettings()
+    semantics: SemanticsSettings = SemanticsSettings()
+    viewer: ViewerSettings = ViewerSettings()
+    recording: RecordingSettings = RecordingSettings()
+
+
+def load_settings(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> AppSettings:
+    """Return the settings of a TOML file under those given as flags.
+
+    Parameters
+    ----------
+    path : Path, optional
+        A file like `roomgraph config` prints; what it leaves out keeps its default.
+    flags : mapping, optional
+        Values by dotted name (``"slam.max_depth_m"``); None means not given.
+
+    Raises
+    ------
+    AppError
+        The file cannot be read, or a name or value is not allowed.
+    """
+    values: dict[str, Any] = {}
+    if path is not None:
+        try:
+            values = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise AppError(
+                "settings cannot be read", where=path, expected="a TOML file", got=str(error),
+                hint="`roomgraph config` prints one to start from",
+            ) from error  # fmt: skip
+    for name, value in (flags or {}).items():
+        if value is not None:
+            _set(values, name.split("."), value)
+    try:
+        return AppSettings.model_validate(values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        raise AppError(
+            f"setting {name} is not allowed", where=path or "command line",
+            expected=first["msg"], got=repr(first.get("input"))[:80],
+            hint="`roomgraph config` prints all settings with their defaults",
+        ) from error  # fmt: skip
+
+
+def write_settings(path: Path, settings: AppSettings) -> None:
+    """Write resolved settings as TOML."""
+    write_text(path, to_toml(settings))
+
+
+def to_toml(settings: AppSettings) -> str:
+    """Return settings as TOML that `load_settings` reads."""
+    return tomli_w.dumps(settings.model_dump(mode="json", exclude_none=True))
+
+
+def to_commented_toml(settings: AppSettings) -> str:
+    """Return settings as TOML with the meaning of each, readable by `load_settings`."""
+    lines = ["# Settings of roomgraph. What you leave out keeps its default.", ""]
+    _comment(lines, settings, "")
+    return "\n".join(lines) + "\n"
+
+
+def _comment(lines: list[str], settings: Settings, table: str) -> None:
+    """Write a settings model's own values, then its parts as tables."""
+    values = settings.model_dump(mode="json", exclude_none=True)
+    parts = {n: v for n in values if isinstance(v := getattr(settings, n), Settings)}
+    for name, field in type(settings).model_fields.items():
+        if name in values and name not in parts:
+            value = tomli_w.dumps({name: values[name]}).strip()
+            lines.append(f"{value}  # {field.description}" if field.description else value)
+    for name, part in parts.items():
+        inner = f"{table}.{name}" if table else name
+        lines += ["", f"[{inner}]"]
+        _comment(lines, part, inner)
+
+
+def seeded(settings: AppSettings) -> AppSettings:
+    """Hand the one seed down to every module that draws random samples."""
+    slam = settings.slam
+    return settings.model_copy(update={"slam": slam.model_copy(update={
+        "motion": slam.motion.model_copy(update={"seed": settings.seed}),
+        "planes": slam.planes.model_copy(update={"seed": settings.seed}),
+    })})  # fmt: skip
+
+
+def _set(values: dict[str, Any], names: list[str], value: Any) -> None:
+    for name in names[:-1]:
+        values = values.setdefault(name, {})
+    values[names[-1]] = value

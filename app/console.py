@@ -1,0 +1,74 @@
+"""What the command line says, and how."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console, RenderableType
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
+
+Advance = Callable[[int, int, str], None]
+
+LOGGERS = ("app", "slam", "semantics", "datasets")
+
+
+class Terminal:
+    """Notes and progress bars on standard output; nothing at all if quiet."""
+
+    def __init__(self, quiet: bool = False, verbose: bool = False) -> None:
+        self.console = Console(quiet=quiet, highlight=False)
+        self.verbose = verbose
+
+    def say(self, text: RenderableType) -> None:
+        """Print a line, or a table."""
+        self.console.print(text)
+
+    @contextmanager
+    def progress(self, title: str) -> Iterator[Advance]:
+        """Show a bar while the block runs; call what it gives with done, total and a remark."""
+        columns = (
+            SpinnerColumn(), TextColumn("[bold]{task.description}"), BarColumn(),
+            MofNCompleteColumn(), TimeRemainingColumn(), TextColumn("[dim]{task.fields[remark]}"),
+        )  # fmt: skip
+        with Progress(*columns, console=self.console) as bar:
+            task = bar.add_task(title, total=None, remark="")
+
+            def advance(done: int, total: int, remark: str = "") -> None:
+                bar.update(task, completed=done, total=total, remark=remark)
+
+            yield advance
+
+    @contextmanager
+    def logging(self, path: Path | None = None) -> Iterator[None]:
+        """Write our packages' log to a file, and to standard error if verbose."""
+        handlers: list[logging.Handler] = []
+        if path is not None:
+            handlers.append(logging.FileHandler(path, encoding="utf-8"))
+        if self.verbose:
+            handlers.append(logging.StreamHandler())
+        for handler in handlers:
+            handler.setFormatter(
+                logging.Formatter("%(asctime)s %(levelname)s %(name)s %(message)s")
+            )
+        for name in LOGGERS:
+            logger = logging.getLogger(name)
+            logger.setLevel(logging.INFO)
+            for handler in handlers:
+                logger.addHandler(handler)
+        try:
+            yield
+        finally:
+            for handler in handlers:
+                for name in LOGGERS:
+                    logging.getLogger(name).removeHandler(handler)
+                handler.close()

@@ -1,0 +1,93 @@
+"""A finished run against the truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.errors import AppError
+from app.metrics import place_metrics, trajectory_metrics
+from app.run_folder import RunFolder
+from datasets import poses
+from datasets.files import replacing
+from datasets.open import open_sequence
+from datasets.places import PlaceTruth, read_places
+from datasets.trajectory import Trajectory, read_tum
+from semantics.graph_io import read_graph_json
+from slam.evaluation import compare
+
+
+@dataclass(frozen=True, slots=True)
+class RunEvaluation:
+    """A run's trajectory, the true one where known, and the figures."""
+
+    estimate: Trajectory
+    truth: Trajectory | None
+    metrics: dict[str, Any]
+
+
+def evaluate_run(
+    folder: RunFolder, groundtruth: Path | None = None, places: Path | None = None
+) -> RunEvaluation:
+    """Compare a run with files of truth, or with those of the sequence it was made from.
+
+    Raises
+    ------
+    AppError
+        The folder is no run's, or no truth is to be found.
+    """
+    estimate, metrics = folder.read_trajectory(), folder.read_metrics()
+    truth, rooms = _truth(Path(metrics["sequence"]), groundtruth, places)
+    found: dict[str, Any] = {}
+    if truth is not None:
+        found |= trajectory_metrics(estimate, truth)
+    if rooms is not None:
+        frames = [(float(row["timestamp"]), row["label"]) for row in folder.read_frames()]
+        found |= place_metrics(read_graph_json(folder.graph_json), frames, rooms)
+    if not found:
+        raise AppError(
+            "no ground truth to compare with", where=folder.root,
+            expected="true poses or labels at the run's time stamps",
+            hint="name them with --groundtruth FILE or --places FILE",
+        )  # fmt: skip
+    return RunEvaluation(estimate, truth, found)
+
+
+def draw(path: Path, found: RunEvaluation) -> None:
+    """Draw both paths from above the first camera, and the error over time, as an image."""
+    from matplotlib.figure import Figure
+
+    if found.truth is None:
+        raise AppError("nothing to draw", where=path, expected="true poses")
+    error = compare(found.estimate, found.truth)
+    figure = Figure(figsize=(10, 4.5), layout="constrained")
+    paths, times = figure.subplots(1, 2)
+    true_positions = found.truth.positions
+    aligned = poses.transform(error.T_truth_estimate, found.estimate.positions)
+    # The two directions in which the camera moved most.
+    across = sorted(range(3), key=lambda axis: -float(true_positions[:, axis].std()))[:2]
+    x, y = sorted(across)
+    paths.plot(*true_positions[:, [x, y]].T, color="0.6", lw=3, label="truth")
+    paths.plot(*aligned[:, [x, y]].T, color="tab:blue", label="estimate")
+    paths.set(aspect="equal", xlabel=f"{'xyz'[x]} (m)", ylabel=f"{'xyz'[y]} (m)")
+    paths.legend(frameon=False)
+    times.plot(error.stamps_s - error.stamps_s[0], error.errors_m * 100, color="tab:red")
+    times.set(
+        xlabel="time (s)", ylabel="position error (cm)", ylim=(0, None),
+        title=f"ATE {error.ate_rmse_m * 100:.2f} cm",
+    )  # fmt: skip
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=120)
+
+
+def _truth(
+    root: Path, groundtruth: Path | None, places: Path | None
+) -> tuple[Trajectory | None, PlaceTruth | None]:
+    trajectory = read_tum(groundtruth) if groundtruth else None
+    rooms = read_places(places) if places else None
+    if (trajectory is None or rooms is None) and root.is_dir():
+        sequence = open_sequence(root)
+        trajectory = trajectory or sequence.ground_truth
+        rooms = rooms or sequence.places
+    return trajectory, rooms

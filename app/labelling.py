@@ -1,0 +1,129 @@
+"""Labelling images and sequences that are not being mapped."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+from app.console import Advance
+from app.prefetch import prefetch
+from app.training import labelled_examples
+from datasets import sequence as sequences
+from datasets.errors import DatasetError, RoomgraphError
+from datasets.files import write_text
+from datasets.images import IMAGE_SUFFIXES, read_colour
+from datasets.open import guess_layout, open_sequence
+from semantics.errors import SemanticsError
+from semantics.evaluation import compare_labels
+from semantics.examples import Example
+from semantics.labeller import LabellerSettings, PlaceLabeller
+from semantics.model import PlaceModel
+from slam.features import FeatureExtractor, Features
+from slam.tracking import Tracking, TrackingState
+
+
+@dataclass(frozen=True, slots=True)
+class LabelledItem:
+    """An image with the label found and, where known, the true one (else empty)."""
+
+    name: str
+    label: str
+    score: float
+    truth: str
+
+
+def label_items(model: PlaceModel, data: Path, advance: Advance) -> list[LabelledItem]:
+    """Label an image, a folder of images (class/image, or flat), or a sequence.
+
+    Raises
+    ------
+    RoomgraphError
+        There is nothing to label, or an image cannot be read.
+    """
+    if data.is_dir():
+        try:
+            sequence = open_sequence(data, guess_layout(data))
+        except DatasetError:
+            return list(_label_images(model, _images(data), advance))
+        return list(_label_sequence(model, sequence, advance))
+    return list(_label_images(model, [_unlabelled(data)], advance))
+
+
+def write_labels_csv(path: Path, items: Sequence[LabelledItem]) -> None:
+    """Write ``item,label,score,truth`` rows."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("item", "label", "score", "truth"))
+    writer.writerows((i.name, i.label, f"{i.score:.4f}", i.truth) for i in items)
+    write_text(path, text.getvalue())
+
+
+def accuracy_table(items: Sequence[LabelledItem]) -> Table | None:
+    """Return the accuracy by class and in all, or None where no truth is known."""
+    accuracy = compare_labels((i.truth, i.label) for i in items if i.truth)
+    if not accuracy.count:
+        return None
+    table = Table("class", "right", box=None, padding=(0, 2, 0, 0))
+    for name, share in accuracy.per_label.items():
+        if np.isfinite(share):
+            table.add_row(name, f"{share:.1%}")
+    table.add_row("[bold]all", f"[bold]{accuracy.overall:.1%} of {accuracy.count}")
+    return table
+
+
+def _images(root: Path) -> list[Example]:
+    try:
+        return labelled_examples(root)
+    except RoomgraphError:
+        flat = sorted(p for p in root.iterdir() if p.suffix.lower() in IMAGE_SUFFIXES)
+        if not flat:
+            raise SemanticsError(
+                "nothing to label", where=root, expected="images, class/image, or a sequence"
+            ) from None
+        return [_unlabelled(path) for path in flat]
+
+
+def _unlabelled(path: Path) -> Example:
+    return Example(str(path), "", str(path), lambda: read_colour(path))
+
+
+def _label_images(
+    model: PlaceModel, examples: list[Example], advance: Advance
+) -> Iterator[LabelledItem]:
+    extractor = FeatureExtractor(model.features)
+    found = prefetch(lambda example: extractor.extract_image(example.read()), examples)
+    for done, (example, features) in enumerate(zip(examples, found, strict=True), 1):
+        prediction = model.predict(features)
+        advance(done, len(examples), prediction.label)
+        yield LabelledItem(example.name, prediction.label, prediction.score, example.label)
+
+
+def _label_sequence(
+    model: PlaceModel, sequence: sequences.Sequence, advance: Advance
+) -> Iterator[LabelledItem]:
+    extractor = FeatureExtractor(model.features)
+    labeller = PlaceLabeller(model, LabellerSettings())
+
+    def describe(index: int) -> tuple[float, Features]:
+        frame = sequence[index]
+        return frame.stamp_s, extractor.extract(frame)
+
+    for index, (stamp, features) in enumerate(prefetch(describe, range(len(sequence)))):
+        tracking = Tracking(
+            index, stamp, TrackingState.SKIPPED, 0, "none", None, None, False, (), features
+        )
+        labels = labeller.process(tracking)
+        if index + 1 == len(sequence):
+            labels += labeller.finish()
+        for label in labels:
+            place = sequence.places.at(label.tracking.stamp_s) if sequence.places else None
+            advance(label.tracking.index + 1, len(sequence), label.label)
+            yield LabelledItem(
+                f"{label.tracking.stamp_s:.6f}", label.label, label.score, place[0] if place else ""
+            )

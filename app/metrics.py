@@ -1,0 +1,102 @@
+"""The figures of a run."""
+
+from __future__ import annotations
+
+import resource
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from app.clock import StageClock
+from datasets.places import PlaceTruth
+from datasets.sequence import Sequence
+from datasets.trajectory import Trajectory
+from semantics.evaluation import evaluate_frames, evaluate_instances, evaluate_nodes
+from semantics.graph import SemanticGraph
+from semantics.labeller import FrameLabel
+from slam.errors import SlamError
+from slam.evaluation import compare
+from slam.slam import Slam
+from slam.tracking import TrackingState
+
+SCHEMA = "roomgraph/metrics/1"
+
+
+def run_metrics(
+    sequence: Sequence,
+    slam: Slam,
+    labels: list[FrameLabel],
+    trajectory: Trajectory,
+    graph: SemanticGraph,
+    map_points: int,
+    clock: StageClock,
+) -> dict[str, Any]:
+    """Return what `metrics.json` holds."""
+    states = Counter(label.tracking.state for label in labels)
+    tracked = sum(count for state, count in states.items() if state.has_pose)
+    seconds = clock.elapsed_s
+    metrics: dict[str, Any] = {
+        "schema": SCHEMA,
+        "sequence": str(sequence.root.resolve()),
+        "frames": len(sequence),
+        "frames_tracked": tracked,
+        "frames_lost": states[TrackingState.LOST],
+        "frames_skipped": len(sequence) - tracked - states[TrackingState.LOST],
+        "frames_without_features": sum(label.tracking.method == "kiss-icp" for label in labels),
+        "keyframes": len(slam.keyframes),
+        "loop_closures": len(slam.mapper.closures),
+        "path_length_m": round(trajectory.length_m, 4),
+        "seconds_total": round(seconds, 3),
+        "fps": round(len(labels) / seconds, 2) if seconds else 0.0,
+        "stage_ms": clock.summary(),
+        "peak_rss_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
+        "map_points": map_points,
+        "graph_nodes": len(graph.nodes),
+        "graph_edges": len(graph.edges),
+        "places": list(graph.places),
+    }
+    if sequence.ground_truth is not None:
+        metrics |= trajectory_metrics(trajectory, sequence.ground_truth)
+    if sequence.places is not None:
+        frames = [(label.tracking.stamp_s, label.label) for label in labels]
+        metrics |= place_metrics(graph, frames, sequence.places)
+    return metrics
+
+
+def trajectory_metrics(trajectory: Trajectory, truth: Trajectory) -> dict[str, Any]:
+    """Return ATE and RPE; nothing if too few poses have a true one."""
+    try:
+        error = compare(trajectory, truth)
+    except SlamError:
+        return {}
+    return {
+        "ate_rmse_m": round(error.ate_rmse_m, 6),
+        "ate_median_m": round(error.ate_median_m, 6),
+        "ate_max_m": round(error.ate_max_m, 6),
+        "rpe_trans_rmse_m": round(error.rpe_trans_rmse_m, 6),
+        "rpe_rot_rmse_deg": round(error.rpe_rot_rmse_deg, 6),
+    }
+
+
+def place_metrics(
+    graph: SemanticGraph, frames: list[tuple[float, str]], truth: PlaceTruth
+) -> dict[str, Any]:
+    """Return label accuracy of nodes and frames, and how the rooms were told apart."""
+    nodes, per_frame = evaluate_nodes(graph, truth), evaluate_frames(frames, truth)
+    instances = evaluate_instances(graph, truth)
+    return {
+        "place_accuracy": _rounded(nodes.overall),
+        "place_accuracy_per_frame": _rounded(per_frame.overall),
+        "place_accuracy_by_label": {
+            name: _rounded(value) for name, value in per_frame.per_label.items()
+        },
+        "rooms": list(instances.rooms),
+        "rooms_recovered": list(instances.recovered),
+        "rooms_matched": instances.matches,
+        "place_purity": _rounded(instances.purity),
+    }
+
+
+def _rounded(value: float) -> float | None:
+    return round(value, 4) if np.isfinite(value) else None

@@ -1,0 +1,226 @@
+"""A sequence's way through the house: frames in, a run's folder out."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.clock import StageClock
+from app.config import AppSettings
+from app.metrics import run_metrics
+from app.prefetch import prefetch
+from app.recorder import Recorder
+from app.viewer import MapView, SessionView, Viewer
+from datasets import poses
+from datasets.sequence import Sequence
+from datasets.trajectory import Trajectory
+from semantics.labeller import FrameLabel, PlaceLabeller
+from semantics.labels import LabelSpace
+from semantics.model import PlaceModel
+from semantics.topology import TopologicalMap
+from slam.map import PointMap
+from slam.slam import Slam
+from slam.tracking import Tracking
+from slam.view import View
+
+logger = logging.getLogger(__name__)
+
+Progress = Callable[[int, int, str], None]
+
+
+class Pipeline:
+    """Runs both layers over a sequence and hands what they find to recorder and viewer.
+
+    Parameters
+    ----------
+    sequence : Sequence
+        What to map.
+    settings : AppSettings
+        Of both layers.
+    model : PlaceModel or None
+        Without one every label is ``unknown``.
+    recorder : Recorder
+        Writes the files.
+    viewer : Viewer
+        Shows or records.
+    progress : callable
+        Called with frames done, frames in all and a word on the state.
+    """
+
+    def __init__(
+        self,
+        sequence: Sequence,
+        settings: AppSettings,
+        model: PlaceModel | None,
+        recorder: Recorder,
+        viewer: Viewer,
+        progress: Progress,
+    ) -> None:
+        self.sequence, self.settings, self.recorder = sequence, settings, recorder
+        self.viewer, self.progress = viewer, progress
+        self.clock = StageClock()
+        self.slam = Slam(settings.slam)
+        self.labels = model.labels if model is not None else LabelSpace.of(())
+        self.labeller = PlaceLabeller(model, settings.semantics.labeller)
+        self.topology = TopologicalMap(settings.semantics.topology, self.labels)
+        self._labelled: list[FrameLabel] = []
+        self._drawn_keyframes = 0
+
+    def run(self) -> dict[str, Any]:
+        """Map the whole sequence and return its metrics.
+
+        Whatever ends it, an unreadable frame or the user, what was found so far is written.
+        """
+        self.viewer.start(self._session())
+        try:
+            for view in self._views():
+                tracking = self._track(view)
+                self._label(tracking)
+                self._show(view, tracking)
+                self._checkpoint(tracking)
+        finally:
+            metrics = self._finish()
+        return metrics
+
+    def _views(self) -> Iterator[View]:
+        """Yield frames with their features, read and described ahead in a thread."""
+
+        def prepare(index: int) -> View:
+            with self.clock.stage("read"):
+                frame = self.sequence[index]
+            with self.clock.stage("features"):
+                return self.slam.prepare(frame)
+
+        return prefetch(prepare, range(len(self.sequence)))
+
+    def _track(self, view: View) -> Tracking:
+        with self.clock.stage("track"):
+            tracking = self.slam.process(view)
+        for closure in tracking.closures:
+            self.viewer.log(
+                tracking.index,
+                f"loop closed with keyframe {closure.matched_keyframe} ({closure.inliers} matches)",
+            )
+        if not tracking.state.has_pose:
+            self.viewer.log(tracking.index, f"frame {tracking.index} {tracking.state.value}")
+        return tracking
+
+    def _label(self, tracking: Tracking) -> None:
+        with self.clock.stage("label"):
+            labels = self.labeller.process(tracking)
+        self._take(labels)
+
+    def _take(self, labels: list[FrameLabel]) -> None:
+        """Follow the path with frames whose vote is complete, and write them down."""
+        for label in labels:
+            with self.clock.stage("graph"):
+                dropped = self.topology.update(label, self.slam.keyframe_poses)
+            self._labelled.append(replace(label, tracking=label.tracking.without_features()))
+            self.recorder.add_frame(label)
+            self.viewer.show_label(label.tracking.index, label.label_id, label.label, label.score)
+            if dropped:
+                self._enter(label.tracking.index)
+
+    def _enter(self, frame: int) -> None:
+        """Show the graph with its new node, and say so if it lies in another place."""
+        graph = self.topology.snapshot(self.slam.keyframe_poses)
+        self.viewer.show_graph(frame, graph)
+        places = [node.place for node in graph.nodes[-2:]]
+        if len(places) == 1 or places[0] != places[1]:
+            logger.info("frame %d: entering %s", frame, places[-1])
+            self.viewer.log(frame, f"entering {places[-1]}")
+
+    def _show(self, view: View, tracking: Tracking) -> None:
+        with self.clock.stage("view"):
+            self.viewer.show_frame(view.frame, tracking)
+            due = self._drawn_keyframes + self.settings.recording.map_every
+            if len(self.slam.keyframes) >= due or tracking.closures:
+                self._drawn_keyframes = len(self.slam.keyframes)
+                self.viewer.show_map(tracking.index, self._map_view(self.slam.build_map()))
+        self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
+
+    def _checkpoint(self, tracking: Tracking) -> None:
+        if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:
+            self.recorder.write_trajectory(self._trajectory())
+
+    def _finish(self) -> dict[str, Any]:
+        """Write everything, from a whole run or from what there is of it."""
+        self._take(self.labeller.finish())
+        self.recorder.add_unread(self.sequence.stamps_s[len(self._labelled) :])
+        keyframes = self.slam.keyframes
+        with self.clock.stage("map"):
+            points = self.slam.build_map()
+        view = self._map_view(points)
+        graph = self.topology.snapshot(self.slam.keyframe_poses)
+        trajectory = self._trajectory()
+        with self.clock.stage("write"):
+            self.recorder.write_trajectory(trajectory)
+            self.recorder.write_graph(graph)
+            if keyframes:
+                self.recorder.write_pose_graph(
+                    self.slam.mapper.graph, [k.stamp_s for k in keyframes.values()]
+                )
+            if len(points):
+                self.recorder.write_map(points, view.label_ids, self.labels)
+            last = max(0, len(self._labelled) - 1)
+            self.viewer.show_map(last, view)
+            self.viewer.show_graph(last, graph)
+            self.viewer.close()
+        metrics = run_metrics(
+            self.sequence, self.slam, self._labelled, trajectory, graph, len(points), self.clock
+        )
+        self.recorder.write_metrics(metrics)
+        self.recorder.close()
+        return metrics
+
+    def _trajectory(self) -> Trajectory:
+        tracked = [
+            (label.tracking.stamp_s, self.slam.pose_of(label.tracking.anchor))
+            for label in self._labelled
+            if label.tracking.anchor is not None
+        ]
+        stamps = np.array([stamp for stamp, _ in tracked])
+        return Trajectory(stamps, np.array([T for _, T in tracked]).reshape(-1, 4, 4))
+
+    def _map_view(self, points: PointMap) -> MapView:
+        keyframe_poses = self.slam.keyframe_poses
+        positions = {key: T[:3, 3] for key, T in keyframe_poses.items()}
+        links = self.slam.mapper.graph.links
+        ends = np.array([(positions[k.first], positions[k.second]) for k in links])
+        loops = np.array([link.is_loop for link in links], dtype=bool)
+        ends = ends.reshape(-1, 2, 3)
+        return MapView(
+            points, self._label_ids(points), np.array(list(positions.values())).reshape(-1, 3),
+            ends[~loops], ends[loops], self._trajectory().positions,
+        )  # fmt: skip
+
+    def _label_ids(self, points: PointMap) -> NDArray[np.uint16]:
+        """Give each map point the label of the keyframe that saw it best."""
+        of_keyframe = np.zeros(len(self.slam.keyframes) + 1, dtype=np.uint16)
+        for label in self._labelled:
+            tracking = label.tracking
+            if tracking.is_keyframe and tracking.anchor is not None:
+                of_keyframe[tracking.anchor.keyframe] = label.label_id
+        return of_keyframe[points.keyframes]
+
+    def _session(self) -> SessionView:
+        truth = self.sequence.ground_truth
+        centres = None
+        if truth is not None:
+            first = max(0, int(truth.nearest(self.sequence.stamps_s[:1], np.inf)[0]))
+            last = int(truth.nearest(self.sequence.stamps_s[-1:], np.inf)[0])
+            path = truth.positions[first : last + 1]
+            centres = poses.transform(poses.inverse(truth.T_world_camera[first]), path)
+        return SessionView(
+            self.sequence.name, len(self.sequence), self.sequence.camera.intrinsics,
+            self.labels, centres,
+        )  # fmt: skip
+
+    def _state(self, tracking: Tracking) -> str:
+        place = self._labelled[-1].label if self._labelled else "unknown"
+        return f"{tracking.state.value}, {place}, {len(self.slam.keyframes)} keyframes"

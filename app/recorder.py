@@ -1,0 +1,84 @@
+"""Writes a run's files, as they come and at the end."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.cloud_io import write_cloud
+from app.run_folder import FRAME_COLUMNS, RunFolder
+from datasets.files import write_text
+from datasets.trajectory import Trajectory, write_tum
+from semantics.graph import SemanticGraph
+from semantics.graph_io import write_graph_json, write_graphml
+from semantics.labeller import FrameLabel
+from semantics.labels import LabelSpace, write_labels
+from slam.map import PointMap
+from slam.pose_graph import PoseGraph
+from slam.tracking import Tracking, TrackingState
+
+
+class Recorder:
+    """Keeps a run's folder up to date, so that an interrupted run loses nothing."""
+
+    def __init__(self, folder: RunFolder) -> None:
+        self.folder = folder
+        self._file = folder.frames.open("w", newline="", encoding="utf-8")
+        self._rows = csv.writer(self._file, lineterminator="\n")
+        self._rows.writerow(FRAME_COLUMNS)
+
+    def add_frame(self, label: FrameLabel) -> None:
+        """Write a frame's row."""
+        tracking = label.tracking
+        self._rows.writerow((
+            f"{tracking.stamp_s:.6f}", tracking.state.value, tracking.inliers,
+            _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
+        ))  # fmt: skip
+        self._file.flush()
+
+    def add_unread(self, stamps_s: NDArray[np.float64]) -> None:
+        """Write rows for frames that the run did not get to."""
+        for stamp in stamps_s:
+            self._rows.writerow(
+                (f"{stamp:.6f}", TrackingState.SKIPPED.value, 0, "", "unknown", "0.0000", "none")
+            )
+        self._file.flush()
+
+    def write_trajectory(self, trajectory: Trajectory) -> None:
+        """Write the poses of all tracked frames so far, as estimated now."""
+        write_tum(self.folder.trajectory, trajectory)
+
+    def write_pose_graph(self, graph: PoseGraph, stamps_s: Sequence[float]) -> None:
+        """Write the keyframes' poses and the links between them."""
+        T = np.array([graph[key] for key in sorted(graph.poses)]).reshape(-1, 4, 4)
+        write_tum(self.folder.keyframes, Trajectory(np.array(stamps_s), T))
+        graph.write_g2o(self.folder.pose_graph)
+
+    def write_map(
+        self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace
+    ) -> None:
+        """Write the labelled cloud and what its labels mean."""
+        write_labels(self.folder.labels, labels)
+        write_cloud(self.folder.map, points.points_world, points.colours, label_ids)
+
+    def write_graph(self, graph: SemanticGraph) -> None:
+        """Write the topological graph."""
+        write_graph_json(self.folder.graph_json, graph)
+        write_graphml(self.folder.graphml, graph)
+
+    def write_metrics(self, metrics: Mapping[str, Any]) -> None:
+        """Write the run's figures."""
+        write_text(self.folder.metrics, json.dumps(metrics, indent=1) + "\n")
+
+    def close(self) -> None:
+        """Close the open files."""
+        self._file.close()
+
+
+def _keyframe_of(tracking: Tracking) -> int | str:
+    return "" if tracking.anchor is None else tracking.anchor.keyframe

@@ -1,0 +1,155 @@
+"""The folder that a run leaves: the names of its files, made and read here only."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from app.errors import AppError
+from datasets.trajectory import Trajectory, read_tum
+
+FRAME_COLUMNS = ("timestamp", "state", "inliers", "keyframe", "label", "score", "method")
+
+
+@dataclass(frozen=True, slots=True)
+class RunFolder:
+    """Where each product of a run lies."""
+
+    root: Path
+
+    @property
+    def trajectory(self) -> Path:
+        """A pose for each tracked frame."""
+        return self.root / "trajectory.tum"
+
+    @property
+    def frames(self) -> Path:
+        """A row for every input frame."""
+        return self.root / "frames.csv"
+
+    @property
+    def keyframes(self) -> Path:
+        """Optimised keyframe poses."""
+        return self.root / "keyframes.tum"
+
+    @property
+    def pose_graph(self) -> Path:
+        """The optimised pose graph."""
+        return self.root / "pose_graph.g2o"
+
+    @property
+    def map(self) -> Path:
+        """The labelled, coloured cloud."""
+        return self.root / "map.ply"
+
+    @property
+    def labels(self) -> Path:
+        """The label space."""
+        return self.root / "labels.json"
+
+    @property
+    def graph_json(self) -> Path:
+        """The topological graph as node-link JSON."""
+        return self.root / "graph.json"
+
+    @property
+    def graphml(self) -> Path:
+        """The topological graph as GraphML."""
+        return self.root / "graph.graphml"
+
+    @property
+    def metrics(self) -> Path:
+        """Figures of the run."""
+        return self.root / "metrics.json"
+
+    @property
+    def config(self) -> Path:
+        """Resolved settings."""
+        return self.root / "config.toml"
+
+    @property
+    def log(self) -> Path:
+        """What was logged."""
+        return self.root / "run.log"
+
+    @property
+    def recording(self) -> Path:
+        """The Rerun recording."""
+        return self.root / "recording.rrd"
+
+    def read_metrics(self) -> dict[str, Any]:
+        """Return the run's figures."""
+        values: dict[str, Any] = json.loads(self._existing(self.metrics).read_text("utf-8"))
+        return values
+
+    def read_trajectory(self) -> Trajectory:
+        """Return the poses of the tracked frames."""
+        return read_tum(self._existing(self.trajectory))
+
+    def read_frames(self) -> list[dict[str, str]]:
+        """Return the rows of frames.csv."""
+        with self._existing(self.frames).open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def _existing(self, path: Path) -> Path:
+        if not path.exists():
+            raise AppError(
+                "not a run's folder, or the run did not end", where=self.root,
+                expected=path.name, got="no such file",
+                hint="`roomgraph run SEQUENCE -o DIR` makes one",
+            )  # fmt: skip
+        return path
+
+
+def make_run_folder(output: Path | None, name: str, overwrite: bool) -> RunFolder:
+    """Make an empty run folder: `output`, or a new one below ``results/<name>/``.
+
+    Raises
+    ------
+    AppError
+        `output` is there already and `overwrite` is not given, or holds something else than a run.
+    """
+    if output is None:
+        parent = Path("results") / name
+        root = parent / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+        root.mkdir(parents=True)
+        latest = parent / "latest"
+        latest.unlink(missing_ok=True)
+        latest.symlink_to(root.name)
+        return RunFolder(root)
+    clear_output(output, overwrite, "config.toml")
+    output.mkdir(parents=True)
+    return RunFolder(output)
+
+
+def clear_output(output: Path, overwrite: bool, mark: str) -> None:
+    """Make way for a folder to be written; only one that holds the file `mark` is ever removed."""
+    if not output.exists() or (output.is_dir() and not any(output.iterdir())):
+        if output.exists():
+            output.rmdir()
+        return
+    if not overwrite:
+        raise AppError(
+            "output exists already", where=output, expected="a new folder",
+            hint="choose another with -o, or give --overwrite",
+        )  # fmt: skip
+    if not (output / mark).exists():
+        raise AppError(
+            "output is not ours to overwrite", where=output, expected=f"a folder with {mark}",
+            got="another kind of folder or file", hint="choose another with -o",
+        )  # fmt: skip
+    shutil.rmtree(output)
+
+
+def refuse_existing(output: Path, overwrite: bool) -> None:
+    """Raise where a file to be written is there already."""
+    if output.exists() and not overwrite:
+        raise AppError(
+            "output exists already", where=output, expected="a new file",
+            hint="choose another with -o, or give --overwrite",
+        )  # fmt: skip

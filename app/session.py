@@ -1,0 +1,71 @@
+"""One run from an opened sequence to a finished folder."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.config import AppSettings, seeded, write_settings
+from app.console import Terminal
+from app.pipeline import Pipeline
+from app.recorder import Recorder
+from app.run_folder import RunFolder, make_run_folder
+from app.viewer import NoViewer, Viewer
+from datasets.sequence import Sequence
+from semantics.model import PlaceModel
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Showing:
+    """How a run is shown: live in Rerun, recorded for it, both or neither."""
+
+    live: bool = False
+    save: bool = True
+
+
+def map_sequence(
+    sequence: Sequence,
+    settings: AppSettings,
+    model: PlaceModel | None,
+    output: Path | None,
+    overwrite: bool,
+    showing: Showing,
+    terminal: Terminal,
+) -> tuple[RunFolder, dict[str, Any]]:
+    """Map and label a sequence into a new run folder; return it with the run's metrics."""
+    settings = _with_features_of(model, seeded(settings))
+    folder = make_run_folder(output, sequence.name, overwrite)
+    write_settings(folder.config, settings)
+    with terminal.logging(folder.log):
+        logger.info("sequence %s, %d frames", sequence.root, len(sequence))
+        for note in sequence.notes:
+            logger.info("%s", note)
+            terminal.say(f"[dim]{note}")
+        viewer = _viewer(sequence.name, folder, settings, showing)
+        with terminal.progress(f"Mapping {sequence.name}") as advance:
+            pipeline = Pipeline(sequence, settings, model, Recorder(folder), viewer, advance)
+            metrics = pipeline.run()
+        logger.info("finished: %s", metrics)
+    return folder, metrics
+
+
+def _with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:
+    """Describe frames as the model's training images were: features are computed only once."""
+    if model is None or model.features == settings.slam.features:
+        return settings
+    logger.info("features as in the place model: %s", model.features)
+    slam = settings.slam.model_copy(update={"features": model.features})
+    return settings.model_copy(update={"slam": slam})
+
+
+def _viewer(name: str, folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewer:
+    if not showing.live and not showing.save:
+        return NoViewer()
+    from app.rerun_viewer import RerunViewer
+
+    save = folder.recording if showing.save else None
+    return RerunViewer(name, save, showing.live, settings.viewer)

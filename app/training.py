@@ -1,0 +1,46 @@
+"""From labelled data on disk to a model on disk."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from app.config import AppSettings
+from app.console import Terminal
+from datasets.errors import DatasetError
+from datasets.open import guess_layout, open_sequence
+from semantics.examples import Example, folder_examples, sequence_examples
+from semantics.model import PlaceModel
+from semantics.model_io import save_model
+from semantics.training import train
+
+
+def labelled_examples(root: Path) -> list[Example]:
+    """Return the labelled images of a sequence with places, or of a folder class/image.
+
+    Raises
+    ------
+    DatasetError, SemanticsError
+        The folder is neither.
+    """
+    try:
+        layout = guess_layout(root) if root.is_dir() else None
+    except DatasetError:
+        layout = None
+    if layout is None:
+        return folder_examples(root)
+    return sequence_examples(open_sequence(root, layout))
+
+
+def train_model(
+    data: Sequence[Path], output: Path, settings: AppSettings, overwrite: bool, terminal: Terminal
+) -> PlaceModel:
+    """Learn a place model from all `data` together and save it."""
+    examples = [example for root in data for example in labelled_examples(root)]
+    with terminal.progress("Learning places") as advance:
+        model = train(
+            examples, settings.slam.features, settings.semantics.training, settings.seed,
+            lambda done, total: advance(done, total, "images described"),
+        )  # fmt: skip
+    save_model(output, model, overwrite)
+    return model
