@@ -1,0 +1,199 @@
+"""What is sent to Rerun, by entity: the fixed things, the map, the topological graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from app.rerun_framing import Axes
+from app.rerun_images import DEPTH_UNITS_PER_M, thinned
+from app.viewer import MapView, SessionView
+from datasets.camera import Intrinsics
+from semantics.graph import EdgeKind, SemanticGraph
+from semantics.labels import Colour, LabelSpace
+from slam.tracking import TrackingState
+
+FloatArray = NDArray[np.float64]
+
+STATE_COLOURS: dict[TrackingState, Colour] = {
+    TrackingState.OK: (70, 200, 255),
+    TrackingState.RELOCALISED: (255, 170, 40),
+    TrackingState.LOST: (255, 60, 60),
+    TrackingState.SKIPPED: (150, 150, 150),
+}
+TRUTH_COLOUR: Colour = (120, 255, 90)
+KEYFRAME_COLOUR: Colour = (255, 255, 255)
+LINK_COLOUR: Colour = (150, 150, 165)
+LOOP_COLOUR: Colour = (255, 80, 220)
+USABLE_COLOUR: Colour = (60, 255, 120)
+PLAIN_COLOUR: Colour = (170, 170, 170)
+EDGE_COLOURS: dict[EdgeKind, Colour] = {
+    EdgeKind.PATH: (235, 235, 235),
+    EdgeKind.REVISIT: LOOP_COLOUR,
+}
+# Scene units of the graph's own view for a metre.
+_PLAN_SCALE = 60.0
+# Radius at which the points of the last map, and of the thinner ones before, cover surfaces.
+_POINT_RADIUS_M = 0.014
+_FRUSTUM_M = 0.4
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the camera was at a frame, and how that was found."""
+
+    frame: int
+    state: TrackingState
+    T_world_camera: FloatArray
+
+
+def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: int) -> None:
+    """Send what does not change: axes, labels, camera, true path, names and colours of plots."""
+
+    def log(entity: str, *what: object) -> None:
+        recording.log(entity, *what, static=True)
+
+    log("world", rr.ViewCoordinates.RIGHT_HAND_Y_DOWN, _annotation(session.labels))
+    log("world/camera/image", _pinhole(session.intrinsics))
+    log("world/camera/depth", _pinhole(thinned(session.intrinsics, depth_step)))
+    if session.truth is not None:
+        truth = rr.LineStrips3D(
+            [session.truth], colors=TRUTH_COLOUR, radii=rr.Radius.ui_points(1.2)
+        )
+        log("world/trajectory/truth", truth)
+    log("plots/inliers", rr.SeriesLines(names="inliers", colors=USABLE_COLOUR, widths=1.5))
+    log("plots/score", rr.SeriesLines(names="label score", colors=TRUTH_COLOUR, widths=1.5))
+    names = [name.replace("_", " ") for name in session.labels.names]
+    log("timeline/label", _states(session.labels.names, names, session.labels.colours))
+    states = [state.value for state in STATE_COLOURS]
+    log("timeline/tracking", _states(states, states, STATE_COLOURS.values()))
+
+
+def _states(values, labels, colours) -> rr.StateConfiguration:
+    return rr.StateConfiguration(values=list(values), labels=list(labels), colors=list(colours))
+
+
+def _annotation(labels: LabelSpace) -> rr.AnnotationContext:
+    rows = zip(labels.names, labels.colours, strict=True)
+    return rr.AnnotationContext(
+        [rr.AnnotationInfo(id=i, label=name, color=colour) for i, (name, colour) in enumerate(rows)]
+    )
+
+
+def _pinhole(camera: Intrinsics) -> rr.Pinhole:
+    return rr.Pinhole(
+        image_from_camera=camera.K, resolution=[camera.width, camera.height],
+        camera_xyz=rr.ViewCoordinates.RDF, image_plane_distance=_FRUSTUM_M,
+    )  # fmt: skip
+
+
+def depth_image(png: bytes) -> rr.EncodedDepthImage:
+    """Return the recorded depth image."""
+    return rr.EncodedDepthImage(
+        png, media_type="image/png", meter=DEPTH_UNITS_PER_M, colormap="turbo",
+        depth_range=(0.0, 5.0 * DEPTH_UNITS_PER_M),
+    )  # fmt: skip
+
+
+def keypoints(pixels: FloatArray, colour: Colour) -> rr.Points2D:
+    """Draw features (N, 2)."""
+    return rr.Points2D(pixels, colors=colour, radii=rr.Radius.ui_points(2.0))
+
+
+def trajectory(positions: FloatArray, poses: list[Pose]) -> rr.LineStrips3D:
+    """Draw a path (F, 3) coloured by what each frame's state was; red across lost frames."""
+    colours = [STATE_COLOURS[TrackingState.OK]] * max(len(positions) - 1, 0)
+    if len(poses) == len(positions):
+        colours = [_step_colour(a, b) for a, b in zip(poses, poses[1:], strict=False)]
+    turns = [i for i in range(1, len(colours)) if colours[i] != colours[i - 1]]
+    spans = [(a, b) for a, b in zip([0, *turns], [*turns, len(colours)], strict=True) if b > a]
+    return rr.LineStrips3D(
+        [positions[a : b + 1] for a, b in spans], colors=[colours[a] for a, _ in spans],
+        radii=rr.Radius.ui_points(1.8),
+    )  # fmt: skip
+
+
+def _step_colour(before: Pose, after: Pose) -> Colour:
+    if after.frame - before.frame > 1:
+        return STATE_COLOURS[TrackingState.LOST]
+    return STATE_COLOURS[after.state]
+
+
+def log_map(
+    recording: rr.RecordingStream, view: MapView, below: NDArray[np.bool_], at_most: int
+) -> None:
+    """Send the map as it is now, `at_most` points of it; those not `below` the ceiling apart."""
+    chosen = np.arange(len(view.points))
+    if len(chosen) > at_most:
+        chosen = np.sort(np.random.default_rng(0).choice(len(chosen), at_most, replace=False))
+    radius = _POINT_RADIUS_M * max(1.0, np.sqrt(len(view.points) / at_most)) ** 0.5
+    low, high = chosen[below[chosen]], chosen[~below[chosen]]
+    points, colours = view.points.points_world, view.points.colours
+    log = recording.log
+    log("world/map/colour", rr.Points3D(points[low], colors=colours[low], radii=radius))
+    log("world/map/above", rr.Points3D(points[high], colors=colours[high], radii=radius))
+    log(
+        "world/map/labels",
+        rr.Points3D(points[low], class_ids=view.label_ids[low], radii=radius, show_labels=False),
+    )
+    log("world/keyframes", rr.Points3D(
+        view.keyframe_positions, colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)
+    ))  # fmt: skip
+    log("world/pose_graph/links", _lines(view.links, LINK_COLOUR, 0.6))
+    log("world/pose_graph/loops", _lines(view.loops, LOOP_COLOUR, 1.5))
+
+
+def _lines(ends: FloatArray, colour: Colour, radius: float) -> rr.LineStrips3D:
+    return rr.LineStrips3D(ends, colors=colour, radii=rr.Radius.ui_points(radius))
+
+
+def place_spots(graph: SemanticGraph) -> dict[str, int]:
+    """Return the node that bears the name of each place: the one in the middle of its nodes."""
+    places = np.array([node.place for node in graph.nodes])
+    positions, spots = graph.positions, {}
+    for place in graph.places:
+        members = np.flatnonzero(places == place)
+        offsets = positions[members] - np.median(positions[members], axis=0)
+        spots[place] = int(members[np.linalg.norm(offsets, axis=1).argmin()])
+    return spots
+
+
+def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -> None:
+    """Send the topological graph: in the map, and on its own laid out like the floor plan."""
+    if not graph.nodes:
+        return
+    spots = place_spots(graph)
+    recording.log("world/graph/nodes", rr.Points3D(
+        graph.positions, class_ids=[node.label_id for node in graph.nodes],
+        radii=rr.Radius.ui_points(5.0), show_labels=False,
+    ))  # fmt: skip
+    recording.log("world/graph/places", rr.Points3D(
+        graph.positions[list(spots.values())], labels=list(spots), show_labels=True,
+        class_ids=[graph.nodes[i].label_id for i in spots.values()],
+        radii=rr.Radius.ui_points(8.0),
+    ))  # fmt: skip
+    ends = [(edge.source, edge.target) for edge in graph.edges]
+    recording.log("world/graph/edges", rr.LineStrips3D(
+        graph.positions[np.array(ends, dtype=np.intp).reshape(-1, 2)],
+        colors=[EDGE_COLOURS[edge.kind] for edge in graph.edges],
+        radii=rr.Radius.ui_points(1.0),
+    ))  # fmt: skip
+    recording.log("graph", *_floor_plan(graph, spots, axes))
+
+
+def _floor_plan(
+    graph: SemanticGraph, spots: dict[str, int], axes: Axes
+) -> tuple[rr.GraphNodes, rr.GraphEdges]:
+    named = {node: place for place, node in spots.items()}
+    nodes = rr.GraphNodes(
+        [str(node.id) for node in graph.nodes],
+        positions=axes.on_floor(graph.positions) * (_PLAN_SCALE, -_PLAN_SCALE),
+        colors=[graph.labels.colours[node.label_id] for node in graph.nodes],
+        labels=[named.get(node.id, "") for node in graph.nodes],
+        radii=[12.0 if node.id in named else 8.0 for node in graph.nodes],
+    )  # fmt: skip
+    edges = [(str(edge.source), str(edge.target)) for edge in graph.edges]
+    return nodes, rr.GraphEdges(edges, graph_type="undirected")

@@ -1,0 +1,23 @@
+"""What of a run is drawn, and how finely."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from datasets.settings import Settings
+
+
+class ViewerSettings(Settings):
+    """How much the Rerun recording holds. A frame takes about 60 KiB with the defaults."""
+
+    colour_stride: int = Field(1, ge=1, description="every n-th colour image is recorded")
+    depth_stride: int = Field(2, ge=1, description="every n-th depth image is recorded")
+    jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
+    depth_step: int = Field(2, ge=1, le=16, description="every n-th row and column of the depth")
+    max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
+    max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
+    max_points_final: int = Field(300_000, ge=1000, description="points of the last map")
+    headroom_m: float = Field(
+        0.7, gt=0, description="points higher than this above the path are hidden: the ceiling"
+    )
+    port: int = Field(9876, ge=1024, le=65535, description="where the live window listens")

@@ -1,0 +1,187 @@
+"""A viewer that records a run for Rerun, shows it live, or both."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from app import rerun_images, rerun_scene
+from app.blueprint import build_blueprint
+from app.errors import AppError
+from app.rerun_framing import below_ceiling, frame_scene, level_axes
+from app.rerun_scene import Pose
+from app.rerun_settings import ViewerSettings
+from app.rerun_sinks import open_sinks
+from app.viewer import MapView, SessionView
+from datasets.frame import Frame
+from semantics.graph import SemanticGraph
+from slam.tracking import Tracking, TrackingState
+
+__all__ = ["RerunViewer", "ViewerSettings"]
+
+FloatArray = NDArray[np.float64]
+
+
+class RerunViewer:
+    """Tells Rerun of a run. Nothing is global: several may work side by side.
+
+    Maps on the way are thinned; the last one is drawn densely, and the views are set on it, when
+    the viewer is closed.
+
+    Parameters
+    ----------
+    save : Path or None
+        The recording to write (``.rrd``), with its layout.
+    spawn : bool
+        Whether to open a window and show the run as it goes on.
+    settings : ViewerSettings
+        What is drawn, and how finely.
+
+    Raises
+    ------
+    AppError
+        There is nothing to do: neither `save` nor `spawn`.
+    """
+
+    def __init__(
+        self, save: Path | None, spawn: bool = False, settings: ViewerSettings | None = None
+    ) -> None:
+        if save is None and not spawn:
+            raise AppError("a viewer without a window and without a file", hint="use NoViewer")
+        self.settings = settings or ViewerSettings()
+        self._save, self._spawn = save, spawn
+        self._stamps: dict[int, float] = {}
+        self._poses: list[Pose] = []
+        self._recent: list[Pose] = []
+        self._said: dict[str, str] = {}
+        self._label = ""
+        self._map: tuple[int, MapView] | None = None
+        self._graph: tuple[int, SemanticGraph] | None = None
+
+    def start(self, session: SessionView) -> None:
+        """Open the file and the window; send what does not change.
+
+        Raises
+        ------
+        AppError
+            The file or the window cannot be opened.
+        """
+        self._session = session
+        self._recording = open_sinks(
+            session.name, self._save, self.settings.port if self._spawn else None
+        )
+        rerun_scene.log_fixed(self._recording, session, self.settings.depth_step)
+
+    def show_frame(self, frame: Frame, tracking: Tracking) -> None:
+        """Show a frame with its features and, where it has one, its pose."""
+        self._stamps[tracking.index] = tracking.stamp_s
+        self._at(tracking.index)
+        self._show_images(frame, tracking)
+        self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))
+        self._say("timeline/tracking", tracking.state.value)
+        if tracking.T_world_camera is not None:
+            self._show_pose(Pose(tracking.index, tracking.state, tracking.T_world_camera))
+        self._show_status(tracking)
+
+    def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
+        """Show a frame's label, which is known a few frames after the frame."""
+        self._at(frame)
+        self._recording.log("plots/score", rr.Scalars(score))
+        self._say("timeline/label", label)
+        self._label = f"{label.replace('_', ' ')} · {score:.2f}"
+
+    def show_map(self, frame: int, view: MapView) -> None:
+        """Show the map as it is at a frame; takes the place of the one before."""
+        self._map = (frame, view)
+        self._recent.clear()
+        self._at(frame)
+        self._recording.log("world/trajectory/recent", rr.LineStrips3D([]))
+        self._draw_map(view, self.settings.max_points)
+
+    def show_graph(self, frame: int, graph: SemanticGraph) -> None:
+        """Show the topological graph as it is at a frame."""
+        self._graph = (frame, graph)
+        self._at(frame)
+        rerun_scene.log_graph(self._recording, graph, level_axes(self._all_poses()))
+
+    def log(self, frame: int, text: str) -> None:
+        """Show an event: a loop closed, a place entered, tracking lost."""
+        self._at(frame)
+        self._recording.log("events", rr.TextLog(text, level=rr.TextLogLevel.INFO))
+
+    def close(self) -> None:
+        """Draw the last map densely, set the views on it, and flush."""
+        if self._map is not None:
+            frame, view = self._map
+            self._at(frame)
+            self._draw_map(view, self.settings.max_points_final)
+            if len(view.points):
+                axes = level_axes(self._all_poses())
+                framing = frame_scene(view.points.points_world.astype(np.float64), axes)
+                self._recording.send_blueprint(build_blueprint(framing))
+        self._recording.flush()
+        self._recording.disconnect()
+
+    def _at(self, frame: int) -> None:
+        """Set the time of what is said next; a frame that has not come yet has no stamp."""
+        self._recording.reset_time()
+        self._recording.set_time("frame", sequence=frame)
+        if frame in self._stamps:
+            self._recording.set_time("stamp", duration=self._stamps[frame])
+
+    def _say(self, entity: str, state: str) -> None:
+        """Tell a state, if it is another than before."""
+        if self._said.get(entity) != state:
+            self._said[entity] = state
+            self._recording.log(entity, rr.StateChange(state=state))
+
+    def _show_images(self, frame: Frame, tracking: Tracking) -> None:
+        settings, log = self.settings, self._recording.log
+        if tracking.index % settings.colour_stride == 0:
+            jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
+            log(
+                "world/camera/image/colour", rr.EncodedImage(contents=jpeg, media_type="image/jpeg")
+            )
+        if tracking.index % settings.depth_stride == 0:
+            png = rerun_images.encode_depth(frame, settings.depth_step)
+            log("world/camera/depth/image", rerun_scene.depth_image(png))
+        pixels = tracking.features.pixels[: settings.max_keypoints]
+        usable = rerun_images.has_depth(frame, pixels)
+        plain, lost = rerun_scene.PLAIN_COLOUR, not tracking.state.has_pose
+        good = rerun_scene.STATE_COLOURS[TrackingState.LOST] if lost else rerun_scene.USABLE_COLOUR
+        log("world/camera/image/features/plain", rerun_scene.keypoints(pixels[~usable], plain))
+        log("world/camera/image/features/with_depth", rerun_scene.keypoints(pixels[usable], good))
+
+    def _show_pose(self, pose: Pose) -> None:
+        T = pose.T_world_camera
+        self._poses.append(pose)
+        self._recent.append(pose)
+        log = self._recording.log
+        log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
+        positions = np.array([p.T_world_camera[:3, 3] for p in self._recent])
+        log("world/trajectory/recent", rerun_scene.trajectory(positions, self._recent))
+
+    def _show_status(self, tracking: Tracking) -> None:
+        lines = [
+            f"# {self._label or '—'}",
+            f"frame {tracking.index + 1} of {self._session.frames} · "
+            f"**{tracking.state.value}** · {tracking.inliers} inliers",
+        ]
+        document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
+        self._recording.log("status", document)
+
+    def _draw_map(self, view: MapView, at_most: int) -> None:
+        up = level_axes(self._all_poses()).up
+        points = view.points.points_world.astype(np.float64)
+        below = below_ceiling(points, view.trajectory, up, self.settings.headroom_m)
+        rerun_scene.log_map(self._recording, view, below, at_most)
+        self._recording.log(
+            "world/trajectory/estimate", rerun_scene.trajectory(view.trajectory, self._poses)
+        )
+
+    def _all_poses(self) -> FloatArray:
+        """Return T_world_camera (N, 4, 4) of the frames so far; the identity if there is none."""
+        return np.array([pose.T_world_camera for pose in self._poses] or [np.eye(4)])
