@@ -1,0 +1,200 @@
+"""The floor plan: a corridor with rooms on both sides and the elevators at one end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+LABELS = ("corridor", "office", "laboratory", "kitchen", "bathroom", "elevator_area")
+WALL_M = 0.14
+CEILING_M = 2.6
+# Width of a room along the corridor, and its depth away from it: smallest and largest, metres.
+SIZES = {
+    "office": ((3.5, 4.0), (3.6, 4.2)),
+    "laboratory": ((3.8, 4.3), (3.7, 4.3)),
+    "kitchen": ((3.4, 3.8), (3.5, 4.0)),
+    "bathroom": ((3.1, 3.5), (3.3, 3.6)),
+    "elevator_area": ((3.2, 3.6), (3.5, 4.0)),
+}
+DOOR_TO_CORNER_M = 1.3
+
+
+@dataclass(frozen=True, slots=True)
+class Rectangle:
+    """A rectangle along the axes, metres."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Its middle."""
+        return (self.x0 + self.x1) / 2, (self.y0 + self.y1) / 2
+
+    @property
+    def area(self) -> float:
+        """Its area, square metres."""
+        return (self.x1 - self.x0) * (self.y1 - self.y0)
+
+    @property
+    def polygon(self) -> FloatArray:
+        """Its corners (4, 2), counter-clockwise."""
+        return np.array(
+            [(self.x0, self.y0), (self.x1, self.y0), (self.x1, self.y1), (self.x0, self.y1)]
+        )
+
+    def distance(self, xy: FloatArray) -> FloatArray:
+        """Return the distances (N,) of points (N, 2) to it; 0 inside."""
+        low, high = np.array([self.x0, self.y0]), np.array([self.x1, self.y1])
+        outside = np.maximum(np.maximum(low - xy, xy - high), 0.0)
+        return np.asarray(np.linalg.norm(outside, axis=-1))
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """A room: what kind of place it is (`label`), which one (`name`), and its floor."""
+
+    name: str
+    label: str
+    floor: Rectangle
+
+
+@dataclass(frozen=True, slots=True)
+class Doorway:
+    """An opening between two rooms.
+
+    Attributes
+    ----------
+    rooms : (str, str)
+        Names of the rooms; the corridor comes first.
+    xy : (float, float)
+        Its middle, in the middle of the wall.
+    along : {"x", "y"}
+        The direction of the wall that it is in.
+    width_m, height_m : float
+        Its clear size.
+    """
+
+    rooms: tuple[str, str]
+    xy: tuple[float, float]
+    along: str
+    width_m: float
+    height_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class FloorPlan:
+    """Rooms in the order in which they are walked through, the corridor first."""
+
+    rooms: tuple[Room, ...]
+    doorways: tuple[Doorway, ...]
+
+    def room(self, name: str) -> Room:
+        """Return the room called `name`."""
+        return next(room for room in self.rooms if room.name == name)
+
+    def doorway(self, name: str) -> Doorway:
+        """Return the doorway between the corridor and the room called `name`."""
+        return next(door for door in self.doorways if door.rooms[1] == name)
+
+    def room_at(self, xy: tuple[float, float] | FloatArray) -> Room:
+        """Return the room at a point; inside walls and doorways, the nearest one."""
+        point = np.asarray(xy, dtype=np.float64)
+        return min(self.rooms, key=lambda room: float(room.floor.distance(point)))
+
+
+def plan_floor(rng: np.random.Generator) -> FloorPlan:
+    """Draw up a floor: three rooms on one side of the corridor, two on the other."""
+    order = [str(label) for label in rng.permutation(["office", "office", *_OTHERS])]
+    # Walked in this order: rooms 0, 2, 4 are on one side of the corridor, 1 and 3 on the other.
+    width = float(rng.uniform(1.9, 2.1))
+    near, length = _row(rng, order[0::2], 0.0)
+    gap = float(rng.uniform(0.3, 0.7)) * (length - _row_length(order[1::2]))
+    far, far_length = _row(rng, order[1::2], max(0.0, gap))
+    length = max(length, far_length)
+    spans = [span for pair in zip(near, [*far, None], strict=True) for span in pair if span]
+    sides = [1, -1, 1, -1, 1]
+    mirrored = (rng.random() < 0.5, rng.random() < 0.5)
+    return _assemble(rng, order, spans, sides, (length, width), mirrored)
+
+
+_OTHERS = ("laboratory", "kitchen", "bathroom")
+
+
+def _row_length(labels: list[str]) -> float:
+    return sum(SIZES[label][0][1] + WALL_M for label in labels)
+
+
+def _row(
+    rng: np.random.Generator, labels: list[str], start: float
+) -> tuple[list[tuple[float, float]], float]:
+    """Return where each room of a row begins and ends along the corridor, and the row's end."""
+    spans = []
+    for label in labels:
+        end = start + float(rng.uniform(*SIZES[label][0]))
+        spans.append((start, end))
+        start = end + WALL_M
+    return spans, start - WALL_M
+
+
+def _assemble(
+    rng: np.random.Generator,
+    labels: list[str],
+    spans: list[tuple[float, float]],
+    sides: list[int],
+    corridor: tuple[float, float],
+    mirrored: tuple[bool, bool],
+) -> FloorPlan:
+    length, width = corridor
+    lobby_width, lobby_depth = (float(rng.uniform(*size)) for size in SIZES["elevator_area"])
+    shift = float(rng.uniform(-0.3, 0.3))
+    rooms = [
+        Room("corridor1", "corridor", Rectangle(0, -width / 2, length, width / 2)),
+        Room(
+            "elevator_area1", "elevator_area",
+            Rectangle(-WALL_M - lobby_width, shift - lobby_depth / 2, -WALL_M, shift + lobby_depth / 2),
+        ),
+    ]  # fmt: skip
+    opening = (-WALL_M / 2, 0.0), "y", width - 0.3, 2.3
+    doorways = [Doorway(("corridor1", "elevator_area1"), *opening)]
+    counts: dict[str, int] = {}
+    for label, (start, end), side in zip(labels, spans, sides, strict=True):
+        counts[label] = counts.get(label, 0) + 1
+        name = f"{label}{counts[label]}"
+        inner = width / 2 + WALL_M
+        outer = inner + float(rng.uniform(*SIZES[label][1]))
+        floor = Rectangle(
+            start, min(side * inner, side * outer), end, max(side * inner, side * outer)
+        )
+        door_x = float(rng.uniform(start + DOOR_TO_CORNER_M, end - DOOR_TO_CORNER_M))
+        rooms.append(Room(name, label, floor))
+        doorways.append(
+            Doorway(
+                ("corridor1", name), (door_x, side * (width + WALL_M) / 2), "x",
+                float(rng.uniform(0.98, 1.04)), float(rng.uniform(2.0, 2.1)),
+            )
+        )  # fmt: skip
+    plan = FloorPlan(tuple(rooms), tuple(doorways))
+    return _mirror(plan, *mirrored)
+
+
+def _mirror(plan: FloorPlan, in_x: bool, in_y: bool) -> FloorPlan:
+    """Turn the plan round, so that floors differ in more than their sizes."""
+    sx, sy = (-1 if in_x else 1), (-1 if in_y else 1)
+
+    def rectangle(r: Rectangle) -> Rectangle:
+        (xa, xb), (ya, yb) = sorted((sx * r.x0, sx * r.x1)), sorted((sy * r.y0, sy * r.y1))
+        return Rectangle(xa, ya, xb, yb)
+
+    rooms = tuple(Room(r.name, r.label, rectangle(r.floor)) for r in plan.rooms)
+    doorways = tuple(
+        Doorway(d.rooms, (sx * d.xy[0], sy * d.xy[1]), d.along, d.width_m, d.height_m)
+        for d in plan.doorways
+    )
+    return FloorPlan(rooms, doorways)

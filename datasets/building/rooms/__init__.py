@@ -1,0 +1,1 @@
+"""What the kinds of rooms are made of and furnished with."""
