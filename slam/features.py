@@ -23,7 +23,7 @@ class FeatureSettings(Settings):
     detector: Detector = Field("rootsift", description="sift, rootsift, orb, or surf where built")
     max_features: int = Field(1000, ge=50, le=20000, description="strongest features kept a frame")
     contrast_threshold: float = Field(
-        0.02, gt=0, le=0.2, description="SIFT's contrast threshold; higher keeps fewer features"
+        0.01, gt=0, le=0.2, description="SIFT's contrast threshold; higher keeps fewer features"
     )
     working_width: int = Field(
         320, ge=80, description="images wider than this are halved before detection until they fit"

@@ -1,0 +1,47 @@
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from datasets import poses
+
+steps = arrays(np.float64, 6, elements=st.floats(-1.5, 1.5))
+
+
+def test_inverse_undoes_each_of_many(random_poses):
+    assert np.allclose(poses.inverse(random_poses) @ random_poses, np.eye(4))
+    assert np.allclose(poses.inverse(random_poses[3]) @ random_poses[3], np.eye(4))
+
+
+def test_quaternions_round_trip_for_more_than_one_pose(random_poses):
+    back = poses.from_quaternion(poses.to_quaternion(random_poses), random_poses[:, :3, 3])
+    assert np.allclose(back, random_poses)
+
+
+def test_quaternions_are_xyzw():
+    quarter_turn = poses.from_quaternion([[0, 0, np.sqrt(0.5), np.sqrt(0.5)]], [[1, 2, 3]])[0]
+    assert np.allclose(poses.transform(quarter_turn, np.array([[1.0, 0, 0]])), [[1, 3, 3]])
+
+
+def test_transform_is_the_matrix_product(random_poses, rng):
+    points = rng.normal(size=(9, 3))
+    expected = (random_poses[0] @ np.column_stack([points, np.ones(9)]).T).T[:, :3]
+    assert np.allclose(poses.transform(random_poses[0], points), expected)
+
+
+@given(steps)
+def test_logarithm_undoes_exponential(step):
+    assert np.allclose(poses.logarithm(poses.exponential(step)), step, atol=1e-9)
+
+
+@given(steps)
+def test_exponential_is_rigid(step):
+    R = poses.exponential(step)[:3, :3]
+    assert np.allclose(R @ R.T, np.eye(3))
+    assert np.isclose(np.linalg.det(R), 1)
+    assert np.isclose(poses.rotation_angle(poses.exponential(step)), np.linalg.norm(step[:3]))
+
+
+def test_hat_is_the_cross_product(rng):
+    a, b = rng.normal(size=(2, 5, 3))
+    assert np.allclose((poses.hat(a) @ b[..., None])[..., 0], np.cross(a, b))
