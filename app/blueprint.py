@@ -5,8 +5,11 @@ from __future__ import annotations
 import rerun.blueprint as rrb
 
 from app.rerun_framing import Framing
+from app.rerun_scene import PLAN_SIZE
 
 BACKGROUND = (16, 18, 22)
+_CAMERA = ("+ /world/camera", "+ /world/camera/image", "+ /world/camera/image/colour")
+_PATH = ("+ /world/trajectory/**", "+ /world/pose_graph/**", "+ /world/keyframes")
 
 
 def build_blueprint(framing: Framing | None) -> rrb.Blueprint:
@@ -17,34 +20,8 @@ def build_blueprint(framing: Framing | None) -> rrb.Blueprint:
     framing : Framing or None
         Where the maps are seen from; None leaves it to the viewer, which follows the scene's size.
     """
-    top = rrb.Horizontal(
-        _map_view("Map", ["+ /world/**", "- /world/map/labels"], framing),
-        _map_view("Map by label", ["+ /world/**", "- /world/map/colour"], framing),
-        rrb.Vertical(
-            rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
-            rrb.Spatial2DView(name="Depth", origin="/world/camera/depth"),
-        ),
-        column_shares=[3, 3, 1.6],
-    )
-    bottom = rrb.Horizontal(
-        rrb.GraphView(name="Places", origin="/graph"),
-        rrb.Vertical(
-            rrb.StateTimelineView(name="Label and state", origin="/timeline"),
-            rrb.TimeSeriesView(
-                name="Label score", origin="/plots/score",
-                axis_y=rrb.ScalarAxis(range=(0.0, 1.05), zoom_lock=True),
-            ),
-        ),
-        rrb.TimeSeriesView(name="Inliers", origin="/plots/inliers"),
-        rrb.Vertical(
-            rrb.TextDocumentView(name="Now", origin="/status"),
-            rrb.TextLogView(name="Events", origin="/events"),
-            row_shares=[2, 3],
-        ),
-        column_shares=[2, 2.4, 1.6, 1.6],
-    )  # fmt: skip
     return rrb.Blueprint(
-        rrb.Vertical(top, bottom, row_shares=[2, 1]),
+        rrb.Vertical(_maps(framing), _details(), row_shares=[2, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(state="collapsed", timeline="frame", play_state="following"),
@@ -52,12 +29,53 @@ def build_blueprint(framing: Framing | None) -> rrb.Blueprint:
     )
 
 
+def _maps(framing: Framing | None) -> rrb.Horizontal:
+    coloured = ["+ /world/map/colour", "+ /world/map/above", *_PATH, "+ /world/graph/places"]
+    return rrb.Horizontal(
+        _map_view("Map (path: estimate blue, truth yellow, loops pink)", coloured, framing),
+        _map_view("Map by label", ["+ /world/map/labels", "+ /world/graph/**"], framing),
+        rrb.Vertical(
+            rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
+            rrb.Spatial2DView(name="Depth", origin="/world/camera/depth"),
+        ),
+        column_shares=[3, 3, 1.6],
+    )
+
+
+def _details() -> rrb.Horizontal:
+    width, height = PLAN_SIZE
+    bounds = rrb.VisualBounds2D(
+        x_range=(-1.25 * width, 1.25 * width), y_range=(-1.15 * height, 1.15 * height)
+    )
+    score = rrb.ScalarAxis(range=(0.0, 1.05), zoom_lock=True)
+    return rrb.Horizontal(
+        rrb.GraphView(name="Places", origin="/graph", visual_bounds=bounds),
+        rrb.Vertical(
+            rrb.StateTimelineView(name="Label and tracking", origin="/timeline"),
+            rrb.TimeSeriesView(name="Label score", origin="/plots/score", axis_y=score),
+        ),
+        rrb.TimeSeriesView(name="Inliers", origin="/plots/inliers"),
+        rrb.Vertical(
+            rrb.TextDocumentView(name="Now", origin="/status"),
+            rrb.TextLogView(
+                name="Events", origin="/events", columns=_event_columns(),
+            ),
+            row_shares=[2, 3],
+        ),
+        column_shares=[2, 2.4, 1.3, 1.9],
+    )  # fmt: skip
+
+
+def _event_columns() -> rrb.TextLogColumns:
+    return rrb.TextLogColumns(timeline_columns=["frame"], text_log_columns=["Body"])
+
+
 def _map_view(name: str, contents: list[str], framing: Framing | None) -> rrb.Spatial3DView:
-    eye = rrb.EyeControls3D() if framing is None else rrb.EyeControls3D(
+    eye = None if framing is None else rrb.EyeControls3D(
         kind="orbital", position=framing.eye, look_target=framing.target, eye_up=framing.up,
     )  # fmt: skip
     return rrb.Spatial3DView(
-        name=name, origin="/world", contents=[*contents, "- /world/camera/depth/**"],
-        background=BACKGROUND, line_grid=False, eye_controls=eye,
+        name=name, origin="/world", background=BACKGROUND, line_grid=False, eye_controls=eye,
+        contents=[*contents, *_CAMERA],
         overrides={"/world/map/above": rrb.EntityBehavior(visible=False)},
     )  # fmt: skip

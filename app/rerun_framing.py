@@ -12,9 +12,12 @@ FloatArray = NDArray[np.float64]
 
 # Of the eye above the horizon: rooms are seen from above, walls still stand.
 _ELEVATION = np.radians(58.0)
-# Half the angle that the scene may take; the viewer opens 55 degrees from top to bottom.
-_HALF_ANGLE = np.radians(24.0)
-_MIN_EXTENT_M = 1.5
+# Half the width and height that the scene may take, as tangents of the angle. The viewer opens 55
+# degrees from top to bottom (tangent 0.52); the views are about as wide as high.
+_HALF_VIEW = np.array([0.50, 0.43])
+_MIN_DISTANCE_M = 1.5
+# Kept in sight on all sides of the path: the camera, or where no map is known yet, the rooms.
+_CAMERA_M, _ROOM_M = 0.4, 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,20 +81,33 @@ def below_ceiling(
     return np.asarray(points_world @ up <= (path @ up)[nearest] + headroom_m)
 
 
-def frame_scene(points_world: FloatArray, axes: Axes) -> Framing:
-    """Return an eye that has all but a few stray points (N, 3), N > 0, in sight, seen from above.
+def frame_scene(points_world: FloatArray, path: FloatArray, axes: Axes) -> Framing:
+    """Return the nearest eye that sees a path (F, 3) and, but for stray ones, points (N, 3).
 
-    It stands behind the first camera and looks the same way.
+    One of both may be empty; around a path without points, room is left for the rooms. The eye
+    looks down from behind the first camera. From an eye at c, a point p is in sight if
+    ``|p_x - c_x| <= t_x (p_z - c_z)``, and the same for y: the farthest right and the farthest left
+    point give c_x and a bound of c_z.
     """
-    low, high = np.percentile(points_world, [1, 99], axis=0)
-    inside = points_world[((points_world >= low) & (points_world <= high)).all(axis=1)]
-    inside = inside if len(inside) else points_world
+    reach = _CAMERA_M if len(points_world) else _ROOM_M
+    sides = reach * np.array([axes.right, -axes.right, axes.forward, -axes.forward])
+    low, high = _spread(points_world)
+    body = points_world[((points_world >= low) & (points_world <= high)).all(axis=1)]
+    inside = np.concatenate([body, (path[:, None] + sides).reshape(-1, 3)])
     ahead = np.cos(_ELEVATION) * axes.forward - np.sin(_ELEVATION) * axes.up
-    frame = np.column_stack([axes.right, np.cross(axes.right, ahead), ahead])
-    seen = inside @ frame
-    # A box around what is seen, then as far back as its widest point asks for.
-    centre = (seen.min(axis=0) + seen.max(axis=0)) / 2
-    sides = np.abs(seen[:, :2] - centre[:2]) / np.tan(_HALF_ANGLE)
-    back = float((sides.max(axis=1) - (seen[:, 2] - centre[2])).max())
-    target = frame @ centre
-    return Framing(target - max(back, _MIN_EXTENT_M) * ahead, target, axes.up)
+    view = np.column_stack([axes.right, np.cross(ahead, axes.right), ahead])
+    seen = inside @ view
+    rising = (seen[:, :2] - _HALF_VIEW * seen[:, 2:]).max(axis=0)
+    falling = (-seen[:, :2] - _HALF_VIEW * seen[:, 2:]).max(axis=0)
+    middle = float(np.median(seen[:, 2]))
+    back = min(float((-(rising + falling) / (2 * _HALF_VIEW)).min()), middle - _MIN_DISTANCE_M)
+    across = (rising - falling) / 2
+    return Framing(view @ [*across, back], view @ [*across, middle], axes.up)
+
+
+def _spread(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the lowest and the highest of points (N, 3), strays left out."""
+    if not len(points):
+        return np.zeros(3), np.zeros(3)
+    low, high = np.percentile(points, [1, 99], axis=0)
+    return low, high

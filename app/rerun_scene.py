@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import rerun as rr
@@ -17,6 +19,7 @@ from semantics.labels import Colour, LabelSpace
 from slam.tracking import TrackingState
 
 FloatArray = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 STATE_COLOURS: dict[TrackingState, Colour] = {
     TrackingState.OK: (70, 200, 255),
@@ -24,7 +27,7 @@ STATE_COLOURS: dict[TrackingState, Colour] = {
     TrackingState.LOST: (255, 60, 60),
     TrackingState.SKIPPED: (150, 150, 150),
 }
-TRUTH_COLOUR: Colour = (120, 255, 90)
+TRUTH_COLOUR: Colour = (255, 214, 10)
 KEYFRAME_COLOUR: Colour = (255, 255, 255)
 LINK_COLOUR: Colour = (150, 150, 165)
 LOOP_COLOUR: Colour = (255, 80, 220)
@@ -34,10 +37,9 @@ EDGE_COLOURS: dict[EdgeKind, Colour] = {
     EdgeKind.PATH: (235, 235, 235),
     EdgeKind.REVISIT: LOOP_COLOUR,
 }
-# Scene units of the graph's own view for a metre.
-_PLAN_SCALE = 60.0
-# Radius at which the points of the last map, and of the thinner ones before, cover surfaces.
-_POINT_RADIUS_M = 0.014
+# Half the width and height of the graph's own view, in its units: text has about 12.
+PLAN_SIZE = (230.0, 130.0)
+_MAX_PLAN_SCALE = 60.0
 _FRUSTUM_M = 0.4
 
 
@@ -72,7 +74,9 @@ def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: i
     log("timeline/tracking", _states(states, states, STATE_COLOURS.values()))
 
 
-def _states(values, labels, colours) -> rr.StateConfiguration:
+def _states(
+    values: Iterable[str], labels: Iterable[str], colours: Iterable[Colour]
+) -> rr.StateConfiguration:
     return rr.StateConfiguration(values=list(values), labels=list(labels), colors=list(colours))
 
 
@@ -107,7 +111,7 @@ def trajectory(positions: FloatArray, poses: list[Pose]) -> rr.LineStrips3D:
     """Draw a path (F, 3) coloured by what each frame's state was; red across lost frames."""
     colours = [STATE_COLOURS[TrackingState.OK]] * max(len(positions) - 1, 0)
     if len(poses) == len(positions):
-        colours = [_step_colour(a, b) for a, b in zip(poses, poses[1:], strict=False)]
+        colours = [_step_colour(a, b) for a, b in pairwise(poses)]
     turns = [i for i in range(1, len(colours)) if colours[i] != colours[i - 1]]
     spans = [(a, b) for a, b in zip([0, *turns], [*turns, len(colours)], strict=True) if b > a]
     return rr.LineStrips3D(
@@ -122,26 +126,20 @@ def _step_colour(before: Pose, after: Pose) -> Colour:
     return STATE_COLOURS[after.state]
 
 
-def log_map(
-    recording: rr.RecordingStream, view: MapView, below: NDArray[np.bool_], at_most: int
-) -> None:
-    """Send the map as it is now, `at_most` points of it; those not `below` the ceiling apart."""
-    chosen = np.arange(len(view.points))
-    if len(chosen) > at_most:
-        chosen = np.sort(np.random.default_rng(0).choice(len(chosen), at_most, replace=False))
-    radius = _POINT_RADIUS_M * max(1.0, np.sqrt(len(view.points) / at_most)) ** 0.5
-    low, high = chosen[below[chosen]], chosen[~below[chosen]]
+def log_map(recording: rr.RecordingStream, view: MapView, low: Mask, radius: float) -> None:
+    """Send the map as it is now; those of its points that are not `low` hide it and go apart."""
     points, colours = view.points.points_world, view.points.colours
     log = recording.log
     log("world/map/colour", rr.Points3D(points[low], colors=colours[low], radii=radius))
-    log("world/map/above", rr.Points3D(points[high], colors=colours[high], radii=radius))
-    log(
-        "world/map/labels",
-        rr.Points3D(points[low], class_ids=view.label_ids[low], radii=radius, show_labels=False),
+    log("world/map/above", rr.Points3D(points[~low], colors=colours[~low], radii=radius))
+    labels = rr.Points3D(
+        points[low], class_ids=view.label_ids[low], radii=radius, show_labels=False
     )
-    log("world/keyframes", rr.Points3D(
+    log("world/map/labels", labels)
+    keyframes = rr.Points3D(
         view.keyframe_positions, colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)
-    ))  # fmt: skip
+    )
+    log("world/keyframes", keyframes)
     log("world/pose_graph/links", _lines(view.links, LINK_COLOUR, 0.6))
     log("world/pose_graph/loops", _lines(view.loops, LOOP_COLOUR, 1.5))
 
@@ -166,34 +164,55 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
     if not graph.nodes:
         return
     spots = place_spots(graph)
-    recording.log("world/graph/nodes", rr.Points3D(
-        graph.positions, class_ids=[node.label_id for node in graph.nodes],
-        radii=rr.Radius.ui_points(5.0), show_labels=False,
-    ))  # fmt: skip
-    recording.log("world/graph/places", rr.Points3D(
-        graph.positions[list(spots.values())], labels=list(spots), show_labels=True,
-        class_ids=[graph.nodes[i].label_id for i in spots.values()],
-        radii=rr.Radius.ui_points(8.0),
-    ))  # fmt: skip
-    ends = [(edge.source, edge.target) for edge in graph.edges]
-    recording.log("world/graph/edges", rr.LineStrips3D(
-        graph.positions[np.array(ends, dtype=np.intp).reshape(-1, 2)],
-        colors=[EDGE_COLOURS[edge.kind] for edge in graph.edges],
-        radii=rr.Radius.ui_points(1.0),
-    ))  # fmt: skip
-    recording.log("graph", *_floor_plan(graph, spots, axes))
-
-
-def _floor_plan(
-    graph: SemanticGraph, spots: dict[str, int], axes: Axes
-) -> tuple[rr.GraphNodes, rr.GraphEdges]:
-    named = {node: place for place, node in spots.items()}
-    nodes = rr.GraphNodes(
-        [str(node.id) for node in graph.nodes],
-        positions=axes.on_floor(graph.positions) * (_PLAN_SCALE, -_PLAN_SCALE),
-        colors=[graph.labels.colours[node.label_id] for node in graph.nodes],
-        labels=[named.get(node.id, "") for node in graph.nodes],
-        radii=[12.0 if node.id in named else 8.0 for node in graph.nodes],
+    ends = np.array([(e.source, e.target) for e in graph.edges], dtype=np.intp).reshape(-1, 2)
+    edges = rr.LineStrips3D(
+        graph.positions[ends], colors=[EDGE_COLOURS[edge.kind] for edge in graph.edges],
+        radii=rr.Radius.ui_points(1.2),
     )  # fmt: skip
-    edges = [(str(edge.source), str(edge.target)) for edge in graph.edges]
-    return nodes, rr.GraphEdges(edges, graph_type="undirected")
+    nodes = rr.Points3D(
+        graph.positions, class_ids=[node.label_id for node in graph.nodes],
+        radii=rr.Radius.ui_points(6.0), show_labels=False,
+    )  # fmt: skip
+    names = rr.Points3D(
+        graph.positions[list(spots.values())], labels=list(spots), show_labels=True,
+        colors=[_readable(_colour(graph, i)) for i in spots.values()],
+        radii=rr.Radius.ui_points(8.0),
+    )  # fmt: skip
+    recording.log("world/graph/edges", edges)
+    recording.log("world/graph/nodes", nodes)
+    recording.log("world/graph/places", names)
+    _log_plan(recording, graph, spots, axes)
+
+
+def _log_plan(
+    recording: rr.RecordingStream, graph: SemanticGraph, spots: dict[str, int], axes: Axes
+) -> None:
+    """Draw every node as a dot and every place's name over one of its nodes."""
+    plan = axes.on_floor(graph.positions) * (1.0, -1.0)
+    half = np.ptp(plan, axis=0) / 2
+    scale = min(_MAX_PLAN_SCALE, *(np.array(PLAN_SIZE) / np.maximum(half, 1e-6)))
+    plan = (plan - plan.min(axis=0) - half) * scale
+    ids = [str(node.id) for node in graph.nodes]
+    nodes = rr.GraphNodes(
+        ids, positions=plan, radii=5.0, show_labels=False,
+        colors=[_colour(graph, i) for i in range(len(ids))],
+    )  # fmt: skip
+    edges = rr.GraphEdges(
+        [(ids[edge.source], ids[edge.target]) for edge in graph.edges], graph_type="undirected"
+    )
+    names = rr.GraphNodes(
+        list(spots), positions=plan[list(spots.values())], labels=list(spots), show_labels=True,
+        colors=[_readable(_colour(graph, i)) for i in spots.values()],
+    )  # fmt: skip
+    recording.log("graph/nodes", nodes, edges)
+    recording.log("graph/places", names)
+
+
+def _colour(graph: SemanticGraph, node: int) -> Colour:
+    return graph.labels.colours[graph.nodes[node].label_id]
+
+
+def _readable(colour: Colour) -> Colour:
+    """Return a lighter colour, for text on dark ground."""
+    red, green, blue = (round(0.55 * c + 0.45 * 255) for c in colour)
+    return red, green, blue

@@ -17,6 +17,7 @@ class ViewerSettings(Settings):
     max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
     max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
     max_points_final: int = Field(300_000, ge=1000, description="points of the last map")
+    point_radius_m: float = Field(0.013, gt=0, le=1, description="of the dense map's points")
     headroom_m: float = Field(
         0.7, gt=0, description="points higher than this above the path are hidden: the ceiling"
     )

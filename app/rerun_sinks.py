@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import shutil
+import socket
+import sys
 from pathlib import Path
 
 import rerun as rr
+import rerun.blueprint as rrb
 
-from app.blueprint import build_blueprint
 from app.errors import AppError
 
 APPLICATION = "roomgraph"
 
 
-def open_sinks(name: str, save: Path | None, port: int | None) -> rr.RecordingStream:
+def open_sinks(
+    name: str, save: Path | None, port: int | None, blueprint: rrb.Blueprint
+) -> rr.RecordingStream:
     """Open a recording that goes to a file, to a window, or to both.
 
     Parameters
@@ -23,6 +28,8 @@ def open_sinks(name: str, save: Path | None, port: int | None) -> rr.RecordingSt
         The file.
     port : int or None
         Where the window listens on this machine; None for no window.
+    blueprint : Blueprint
+        The layout to begin with.
 
     Raises
     ------
@@ -39,7 +46,7 @@ def open_sinks(name: str, save: Path | None, port: int | None) -> rr.RecordingSt
     if save is not None:
         sinks.append(rr.FileSink(save))
     try:
-        recording.set_sinks(*sinks, default_blueprint=build_blueprint(None))
+        recording.set_sinks(*sinks, default_blueprint=blueprint)
     except (OSError, RuntimeError) as error:
         raise AppError("the recording cannot be written", where=save, got=str(error)) from error
     recording.send_recording_name(name)
@@ -47,10 +54,18 @@ def open_sinks(name: str, save: Path | None, port: int | None) -> rr.RecordingSt
 
 
 def _open_window(recording: rr.RecordingStream, port: int) -> None:
+    """Open the viewer's window, or find the one that is open already."""
+    # The viewer comes with the package: its program lies beside the interpreter.
+    program = shutil.which("rerun", path=str(Path(sys.executable).parent))
     try:
-        recording.spawn(port=port, connect=False, hide_welcome_screen=True)
+        rr.spawn(
+            port=port, connect=False, hide_welcome_screen=True, executable_path=program,
+            recording=recording,
+        )  # fmt: skip
+        socket.create_connection(("127.0.0.1", port), timeout=2.0).close()
     except (OSError, RuntimeError) as error:
         raise AppError(
             "the Rerun window does not open", expected="the program `rerun` and a display",
-            got=str(error), hint="run without -v; open the recording later with `roomgraph view`",
+            got=str(error).strip().split("\n")[0],
+            hint="leave out -v and open the recording later with `roomgraph view`",
         ) from error  # fmt: skip

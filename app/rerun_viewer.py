@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import rerun as rr
+import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from app import rerun_images, rerun_scene
@@ -18,11 +20,14 @@ from app.rerun_sinks import open_sinks
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
+from slam.map import PointMap
 from slam.tracking import Tracking, TrackingState
 
 __all__ = ["RerunViewer", "ViewerSettings"]
 
 FloatArray = NDArray[np.float64]
+
+_NOTHING = np.empty((0, 3))
 
 
 class RerunViewer:
@@ -59,7 +64,6 @@ class RerunViewer:
         self._said: dict[str, str] = {}
         self._label = ""
         self._map: tuple[int, MapView] | None = None
-        self._graph: tuple[int, SemanticGraph] | None = None
 
     def start(self, session: SessionView) -> None:
         """Open the file and the window; send what does not change.
@@ -70,9 +74,9 @@ class RerunViewer:
             The file or the window cannot be opened.
         """
         self._session = session
-        self._recording = open_sinks(
-            session.name, self._save, self.settings.port if self._spawn else None
-        )
+        layout = self._layout(_NOTHING, _NOTHING if session.truth is None else session.truth)
+        port = self.settings.port if self._spawn else None
+        self._recording = open_sinks(session.name, self._save, port, layout)
         rerun_scene.log_fixed(self._recording, session, self.settings.depth_step)
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
@@ -103,7 +107,6 @@ class RerunViewer:
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
         """Show the topological graph as it is at a frame."""
-        self._graph = (frame, graph)
         self._at(frame)
         rerun_scene.log_graph(self._recording, graph, level_axes(self._all_poses()))
 
@@ -117,13 +120,17 @@ class RerunViewer:
         if self._map is not None:
             frame, view = self._map
             self._at(frame)
-            self._draw_map(view, self.settings.max_points_final)
-            if len(view.points):
-                axes = level_axes(self._all_poses())
-                framing = frame_scene(view.points.points_world.astype(np.float64), axes)
-                self._recording.send_blueprint(build_blueprint(framing))
+            visible = self._draw_map(view, self.settings.max_points_final)
+            self._recording.send_blueprint(self._layout(visible, view.trajectory))
         self._recording.flush()
         self._recording.disconnect()
+
+    def _layout(self, points_world: FloatArray, path: FloatArray) -> rrb.Blueprint:
+        """Return the layout with the views set on what is there; on nothing if there is nothing."""
+        if not len(points_world) and not len(path):
+            return build_blueprint(None)
+        axes = level_axes(self._all_poses())
+        return build_blueprint(frame_scene(points_world, path, axes))
 
     def _at(self, frame: int) -> None:
         """Set the time of what is said next; a frame that has not come yet has no stamp."""
@@ -166,22 +173,38 @@ class RerunViewer:
 
     def _show_status(self, tracking: Tracking) -> None:
         lines = [
-            f"# {self._label or '—'}",
+            f"# {self._label or 'label to come'}",
             f"frame {tracking.index + 1} of {self._session.frames} · "
-            f"**{tracking.state.value}** · {tracking.inliers} inliers",
+            f"**{tracking.state.value}** · {tracking.inliers} inliers ({tracking.method})",
         ]
         document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
         self._recording.log("status", document)
 
-    def _draw_map(self, view: MapView, at_most: int) -> None:
+    def _draw_map(self, whole: MapView, at_most: int) -> FloatArray:
+        """Draw the map; return those of its points (N, 3) that are not hidden."""
+        view = thinned_map(whole, at_most)
+        # Fewer points are drawn bigger, so that a map on the way does not look like dust.
+        thinning = len(whole.points) / max(len(view.points), 1)
+        radius = self.settings.point_radius_m * min(max(thinning, 1.0) ** 0.5, 2.0)
         up = level_axes(self._all_poses()).up
         points = view.points.points_world.astype(np.float64)
-        below = below_ceiling(points, view.trajectory, up, self.settings.headroom_m)
-        rerun_scene.log_map(self._recording, view, below, at_most)
-        self._recording.log(
-            "world/trajectory/estimate", rerun_scene.trajectory(view.trajectory, self._poses)
-        )
+        low = below_ceiling(points, view.trajectory, up, self.settings.headroom_m)
+        rerun_scene.log_map(self._recording, view, low, radius)
+        path = rerun_scene.trajectory(view.trajectory, self._poses)
+        self._recording.log("world/trajectory/estimate", path)
+        return points[low]
 
     def _all_poses(self) -> FloatArray:
         """Return T_world_camera (N, 4, 4) of the frames so far; the identity if there is none."""
         return np.array([pose.T_world_camera for pose in self._poses] or [np.eye(4)])
+
+
+def thinned_map(view: MapView, at_most: int) -> MapView:
+    """Return a map of `at_most` points, chosen evenly and the same way each time."""
+    count = len(view.points)
+    if count <= at_most:
+        return view
+    chosen = np.sort(np.random.default_rng(0).choice(count, at_most, replace=False))
+    points = view.points
+    kept = PointMap(points.points_world[chosen], points.colours[chosen], points.keyframes[chosen])
+    return replace(view, points=kept, label_ids=view.label_ids[chosen])
