@@ -173,8 +173,8 @@ class Stand:
         low = ring * foot + (*centre, z[0])
         high = ring * head + (*centre, z[1])
         for i in range(8):
-            side = self.world(np.array([high[i + 1], high[i], low[i], low[i + 1]])[[1, 0, 3, 2]])
-            share = (i / 8, 0.0, (i + 1) / 8, 1.0)
+            side = self.world(np.array([high[i + 1], high[i], low[i], low[i + 1]]))
+            share = ((7 - i) / 8, 0.0, (8 - i) / 8, 1.0)
             self.surfaces.quads.append(Quad(side, material, share))
         for a, b, c, d in ((0, 1, 2, 3), (0, 3, 4, 7), (4, 5, 6, 7)):
             self.surfaces.picture(self.world(high[[a, b, c, d]]), cap or material)

@@ -21,7 +21,7 @@ class Hits:
     """
 
     t: NDArray[np.float32]
-    triangle: NDArray[np.int64]
+    triangle: NDArray[np.int32]
     uv: NDArray[np.float32]
     normals: NDArray[np.float32]
 
@@ -42,11 +42,13 @@ class Scene:
     def cast(self, rays: NDArray[np.float32]) -> Hits:
         """Cast rays (..., 6): origin, direction."""
         answer = self._scene.cast_rays(self._core.Tensor(rays), nthreads=THREADS)
-        triangle = answer["primitive_ids"].numpy().astype(np.int64)
-        t = answer["t_hit"].numpy()
-        triangle[~np.isfinite(t)] = -1
+        # Open3D's mark of a miss, the largest uint32, is -1 here.
+        triangle = answer["primitive_ids"].numpy().view(np.int32)
         return Hits(
-            t, triangle, answer["primitive_uvs"].numpy(), answer["primitive_normals"].numpy()
+            answer["t_hit"].numpy(),
+            triangle,
+            answer["primitive_uvs"].numpy(),
+            answer["primitive_normals"].numpy(),
         )
 
     def distances(self, origins: FloatArray, directions: FloatArray) -> FloatArray:

@@ -10,18 +10,22 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.building.atlas import LEVELS, build_atlas
+from datasets.building.atlas import LEVELS, Atlas, build_atlas
 from datasets.building.building import Building
 from datasets.building.lighting import LightMap, bake, shade
 from datasets.building.mesh import Image, Quad
-from datasets.building.raycast import Hits, Scene
+from datasets.building.raycast import Scene
 from datasets.building.sensor import NoiseBank, develop, measure
 from datasets.building.settings import LIGHTS, Light
 from datasets.camera import Intrinsics
 
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
+# Where no channel of a surface is brighter than this, out of 255, it swallows the infrared.
 BLACK = 12
+# How far the texture is blurred where it is seen at a slant: 0.5 would keep its area, 1 its length.
+SLANT = 0.6
+DEPTH_STREAM = 99
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,7 +37,7 @@ class Rendered:
 
 
 class Renderer:
-    """A camera in a building.
+    """A camera in a building. May be used by several threads.
 
     Parameters
     ----------
@@ -47,13 +51,15 @@ class Renderer:
         quads = building.quads
         self.intrinsics = intrinsics
         self.scene = Scene(quads)
-        self._atlas, self._corners, density = _lay_out(quads)
+        self._atlas, corners, density = _lay_out(quads)
         self._light = bake(quads, building.lamps, self.scene, building.seed)
-        self._table = _triangle_table(self._corners, _light_corners(self._light))
-        per_triangle = np.repeat(density, 2)
-        self._log_density = np.append(np.log2(per_triangle), 0).astype(np.float32)
-        self._shiny = np.append(np.repeat([q.material.shiny for q in quads], 2), True)
+        self._table = _triangle_table(corners, _light_corners(self._light))
+        # One entry more than triangles: rays that hit nothing carry the index -1.
+        detail = np.log2(np.repeat(density, 2) / intrinsics.fx)
+        self._detail = np.append(detail, 0).astype(np.float32)
+        self._shiny = np.append(np.repeat([quad.material.shiny for quad in quads], 2), True)
         self._rays = _camera_rays(intrinsics)
+        self._lengths = np.linalg.norm(self._rays, axis=2)
         self._bank = NoiseBank.draw(intrinsics.height, intrinsics.width)
         self._lock = Lock()
 
@@ -80,49 +86,73 @@ class Renderer:
         rays = self._world_rays(T_world_camera)
         with self._lock:
             hits = self.scene.cast(rays)
-        grazing = _grazing(hits, rays[..., 3:])
-        place = self._places(hits)
-        albedo = self._albedo(place, hits, grazing)
-        received = np.asarray(
-            cv2.remap(self._light.image, place[..., 2], place[..., 3], cv2.INTER_LINEAR),
-            dtype=np.float32,
-        )
-        height, width = albedo.shape[:2]
+        cosine = cv2.transform(cv2.multiply(hits.normals, rays[..., 3:]), np.ones((1, 3)))
+        grazing = np.abs(cosine) / self._lengths
+        place = self._places(hits.triangle, hits.uv)
+        albedo = self._albedo(place, hits.triangle, hits.t, grazing)
+        received = cv2.remap(self._light.image, place[..., 2], place[..., 3], cv2.INTER_LINEAR)
         colours: dict[Light, Image] = {}
         for light in lights:
-            rng = np.random.default_rng((*seed, LIGHTS.index(light)))
-            normal = self._bank.window(rng, height, width)
-            colours[light] = develop(albedo, shade(received, light), light, noise, normal)
-        normal = self._bank.window(np.random.default_rng((*seed, 99)), height, width)
+            normal = self._normal((*seed, LIGHTS.index(light)))
+            light_rgb = shade(np.asarray(received, dtype=np.float32), light)
+            colours[light] = develop(albedo, light_rgb, light, noise, normal)
         blind = self._shiny[hits.triangle] | (albedo.max(axis=2) < BLACK)
+        normal = self._normal((*seed, DEPTH_STREAM))
         return Rendered(colours, measure(hits.t, grazing, blind, noise, normal))
+
+    def _normal(self, seed: tuple[int, ...]) -> Float32Array:
+        camera = self.intrinsics
+        return self._bank.window(np.random.default_rng(seed), camera.height, camera.width)
 
     def _world_rays(self, T_world_camera: FloatArray) -> Float32Array:
         rays = np.empty((*self._rays.shape[:2], 6), dtype=np.float32)
         rays[..., :3] = T_world_camera[:3, 3]
-        rays[..., 3:] = self._rays @ T_world_camera[:3, :3].T.astype(np.float32)
+        rays[..., 3:] = cv2.transform(self._rays, T_world_camera[:3, :3])
         return rays
 
-    def _places(self, hits: Hits) -> Float32Array:
+    def _places(self, triangle: NDArray[np.int32], uv: Float32Array) -> Float32Array:
         """Return for each pixel where it looks in the atlas (x, y) and in the light map (x, y)."""
-        table = self._table
-        u, v = hits.uv[..., :1], hits.uv[..., 1:]
-        place = table[0].take(hits.triangle, axis=0, mode="wrap")
-        place += u * table[1].take(hits.triangle, axis=0, mode="wrap")
-        place += v * table[2].take(hits.triangle, axis=0, mode="wrap")
+        first, to_second, to_third = self._table
+        place = to_second.take(triangle, axis=0, mode="wrap")
+        place *= uv[..., :1]
+        other = to_third.take(triangle, axis=0, mode="wrap")
+        other *= uv[..., 1:]
+        place += other
+        first.take(triangle, axis=0, mode="wrap", out=other)
+        place += other
         return place
 
-    def _albedo(self, place: Float32Array, hits: Hits, grazing: Float32Array) -> Image:
-        """Look the texture up in the level whose pixels are as large as the image's."""
-        t = np.where(np.isfinite(hits.t), hits.t, 1.0)
-        detail = self._log_density[hits.triangle] + np.log2(t / self.intrinsics.fx)
-        detail -= 0.6 * np.log2(np.maximum(grazing, 0.05))
-        level = np.clip(np.rint(detail), 0, LEVELS - 1).astype(np.int64)
-        scale = np.exp2(-np.arange(LEVELS)).astype(np.float32)[level]
-        offsets = self._atlas.offsets[level]
-        x = (place[..., 0] + 0.5) * scale - 0.5 + offsets[..., 0]
-        y = (place[..., 1] + 0.5) * scale - 0.5 + offsets[..., 1]
-        return np.asarray(cv2.remap(self._atlas.image, x, y, cv2.INTER_LINEAR), dtype=np.uint8)
+    def _albedo(
+        self,
+        place: Float32Array,
+        triangle: NDArray[np.int32],
+        t: Float32Array,
+        grazing: Float32Array,
+    ) -> Image:
+        """Look the texture up in the level whose pixels are as large as the image's.
+
+        The lens blurs a little, too.
+        """
+        slanted = np.maximum(grazing, np.float32(0.05)) ** np.float32(SLANT)
+        detail = self._detail.take(triangle, mode="wrap") + np.log2(t / slanted)
+        level = np.asarray(cv2.convertScaleAbs(np.clip(detail, 0, LEVELS - 1)))
+        x, y = _in_level(self._atlas, place, level)
+        image = cv2.remap(self._atlas.image, x, y, cv2.INTER_LINEAR)
+        return np.asarray(cv2.GaussianBlur(image, (3, 3), 0.55), dtype=np.uint8)
+
+
+def _in_level(
+    atlas: Atlas, place: Float32Array, level: NDArray[np.uint8]
+) -> tuple[Float32Array, Float32Array]:
+    """Return the pixels x, y (H, W) of the atlas's image that show places of a level."""
+    tables = np.zeros((3, 256), dtype=np.float32)
+    tables[0, :LEVELS] = scales = np.exp2(-np.arange(LEVELS))
+    tables[1:, :LEVELS] = (atlas.offsets + 0.5 * scales[:, None] - 0.5).T
+    scale, left, top = (cv2.LUT(level, table) for table in tables)
+    return (
+        np.asarray(cv2.add(cv2.multiply(place[..., 0], scale), left), dtype=np.float32),
+        np.asarray(cv2.add(cv2.multiply(place[..., 1], scale), top), dtype=np.float32),
+    )
 
 
 def _camera_rays(intrinsics: Intrinsics) -> Float32Array:
@@ -132,12 +162,7 @@ def _camera_rays(intrinsics: Intrinsics) -> Float32Array:
     return np.stack([x, y, np.ones_like(x)], axis=-1).astype(np.float32)
 
 
-def _grazing(hits: Hits, directions: Float32Array) -> Float32Array:
-    cosine = np.einsum("ijk,ijk->ij", hits.normals, directions)
-    return np.asarray(np.abs(cosine) / np.sqrt(np.einsum("ijk,ijk->ij", directions, directions)))
-
-
-def _lay_out(quads: Sequence[Quad]):  # type: ignore[no-untyped-def]
+def _lay_out(quads: Sequence[Quad]) -> tuple[Atlas, FloatArray, FloatArray]:
     """Return the atlas, each quad's corners in it (N, 4, 2), and its pixels a metre (N,)."""
     images = {id(quad.material.image): quad.material.image for quad in quads}
     atlas, places = build_atlas(list(images.values()))
@@ -163,7 +188,7 @@ def _light_corners(light: LightMap) -> FloatArray:
 
 
 def _triangle_table(*corners: FloatArray) -> Float32Array:
-    """Return (3, 2 N, 4): the value at each triangle's first corner, and the steps to the others."""
+    """Return (3, 2 N, 4): the value at a triangle's first corner, and the steps to the others."""
     both = np.concatenate(corners, axis=2)
     triangles = both[:, [(0, 1, 2), (0, 2, 3)]].reshape(-1, 3, both.shape[2])
     triangles[:, 1:] -= triangles[:, :1]

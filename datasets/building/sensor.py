@@ -18,10 +18,8 @@ MIN_DEPTH_M, MAX_DEPTH_M = 0.5, 5.0
 # A Kinect's focal length times its baseline (580 px, 7.5 cm) and its smallest step of disparity.
 FOCAL_BASELINE = 43.5
 DISPARITY_STEP = 1 / 8
-# Standard deviation of the colours' noise: of black, and of white above it; out of 255.
-COLOUR_NOISE: dict[Light, tuple[float, float]] = {
-    "day": (1.2, 2.0), "dusk": (2.0, 3.0), "night": (3.2, 4.0),
-}  # fmt: skip
+# Standard deviation of the colours' noise, out of 255, before the exposure's gain.
+COLOUR_NOISE: dict[Light, float] = {"day": 2.2, "dusk": 3.4, "night": 5.0}
 MEAN_COLOUR = 118.0
 
 
@@ -58,14 +56,11 @@ def develop(
     grows with it.
     """
     image = cv2.multiply(albedo, light_rgb, dtype=cv2.CV_32F)
-    mean = float(np.mean(cv2.mean(cv2.resize(image, (32, 24), interpolation=cv2.INTER_AREA))[:3]))
+    mean = float(np.mean(cv2.mean(image[::8, ::8])[:3]))
     gain = float(np.clip((MEAN_COLOUR / max(mean, 1.0)) ** 0.5, 0.7, 1.8))
-    image = cv2.GaussianBlur(image, (3, 3), 0.55)
     if noise:
-        black, white = COLOUR_NOISE[light]
-        amplitude = cv2.addWeighted(image, noise * white / 255, image, 0, noise * black)
-        image = cv2.add(image, cv2.multiply(amplitude, normal))
-    return np.asarray(cv2.convertScaleAbs(cv2.max(image, 0.0), alpha=gain), dtype=np.uint8)
+        image = cv2.scaleAdd(normal, noise * COLOUR_NOISE[light], image)
+    return np.asarray(cv2.convertScaleAbs(image, alpha=gain), dtype=np.uint8)
 
 
 def measure(
@@ -97,13 +92,14 @@ def measure(
 
 def _quantised_noise(depth: Float32Array, noise: float, normal: Float32Array) -> Float32Array:
     """Add axial noise (Nguyen et al., 2012, equation 3) with the steps of the disparity in it."""
-    sigma = 0.0012 + 0.0019 * (depth - 0.4) ** 2
     step = DISPARITY_STEP / FOCAL_BASELINE * noise
+    sigma = noise * (0.0012 + 0.0019 * (depth - 0.4) ** 2)
     # Rounding to steps is noise too; what it adds is taken off, so that the sum has this sigma.
-    rounding = step * depth**2 / np.sqrt(12)
-    sigma = np.sqrt(np.maximum((noise * sigma) ** 2 - rounding**2, 0))
-    noisy = np.maximum(depth + sigma * normal, 0.05)
-    return np.asarray(1 / (np.maximum(np.rint(1 / (noisy * step)), 1) * step), dtype=np.float32)
+    rounding = step / np.sqrt(12) * depth**2
+    sigma = np.sqrt(np.maximum(sigma**2 - rounding**2, 0, dtype=np.float32))
+    noisy = np.maximum(depth + sigma * normal, np.float32(0.05))
+    steps = np.maximum(np.rint(np.float32(1 / step) / noisy), 1)
+    return np.asarray(np.float32(1 / step) / steps, dtype=np.float32)
 
 
 def _edges(depth: Float32Array, normal: Float32Array) -> Mask:

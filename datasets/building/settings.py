@@ -42,7 +42,7 @@ class BuildingSettings(Settings):
     width: int = Field(640, ge=32, le=1920)
     height: int = Field(480, ge=24, le=1440)
     step_m: float = Field(0.08, ge=0.01, le=0.5)
-    turn_deg: float = Field(3.8, ge=0.2, le=20)
+    turn_deg: float = Field(4.1, ge=0.2, le=20)
     laps: int = Field(1, ge=1, le=10)
     rate_hz: float = Field(30.0, gt=0, le=240)
 

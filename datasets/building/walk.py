@@ -22,9 +22,11 @@ HEIGHT_M = 0.8
 CLEARANCE_M = 0.45
 # Kept from furniture by the corners of the way; the spline that rounds them stays inside.
 MARGIN_M = 0.52
+# Largest round through a room, across and into it.
+ROUND_M = (1.2, 1.4)
 SPACING_M = 0.5
 SAMPLE_M = 0.01
-HEADING_SMOOTHING_M = 0.65
+HEADING_SMOOTHING_M = 0.85
 SPEED_SMOOTHING_M = 0.12
 
 
@@ -148,8 +150,9 @@ def _corners(building: Building) -> list[Point]:
 
 def _loop(building: Building, room: Room, entry: Point) -> list[Point]:
     """Return four corners of a round through a room, from and back to near its door."""
-    free = free_floor(building, room)
     door = building.plan.doorway(room.name)
+    size = ROUND_M if door.along == "x" else ROUND_M[::-1]
+    free = _shrink(free_floor(building, room), *size)
     if door.along == "x":
         near, far = sorted((free.y0, free.y1), key=lambda y: abs(y - entry[1]))
         near = (near + far) / 2 if abs(near - entry[1]) < 0.5 else near
@@ -160,6 +163,12 @@ def _loop(building: Building, room: Room, entry: Point) -> list[Point]:
         corners = [(near, free.y0), (far, free.y0), (far, free.y1), (near, free.y1)]
     rng = np.random.default_rng((building.seed, 3, building.rooms.index(room)))
     return corners[::-1] if rng.random() < 0.5 else corners
+
+
+def _shrink(r: Rectangle, width: float, depth: float) -> Rectangle:
+    """Return the middle of a rectangle, of at most this size."""
+    (x, y), a, b = r.centre, min(width, r.x1 - r.x0) / 2, min(depth, r.y1 - r.y0) / 2
+    return Rectangle(x - a, y - b, x + a, y + b)
 
 
 def free_floor(building: Building, room: Room) -> Rectangle:

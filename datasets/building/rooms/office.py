@@ -81,9 +81,11 @@ def furnish(site: Site, look: Theme) -> None:
     _cabinet(site, far.stand.at(x + 1.7), wood)
     first, second = ("left", "right") if rng.random() < 0.5 else ("right", "left")
     start, end = _span(site, first)
-    _desk(site, walls[first].stand.at(start + 0.05), 1.4, image, wood, look)
-    _shelf(site, walls[first].stand.at(end - 0.85), 0.8, wood, look)
-    _hang(site, first, start + 0.2, start + 1.5)
+    # The chair is kept from the door: the desk stands at the far end, the shelf at the near one.
+    desk, shelf = (end - 1.45, start) if first == "left" else (start + 0.05, end - 0.85)
+    _desk(site, walls[first].stand.at(desk), 1.4, image, wood, look)
+    _shelf(site, walls[first].stand.at(shelf), 0.8, wood, look)
+    _hang(site, first, desk + 0.1, desk + 1.4)
     start, end = _span(site, second)
     for i in range(2):
         _shelf(site, walls[second].stand.at(start + 0.1 + 0.92 * i), 0.9, wood, look)

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from datasets.building.mesh import Image
-from datasets.building.textures.ink import lines, write
+from datasets.building.textures.ink import lines, sheet, write
 from datasets.building.textures.patterns import Colour, Generator, noise, pick, plain, steel, tint
 
 
@@ -59,8 +59,12 @@ def dryer(rng: Generator, height: int, width: int) -> Image:
 
 
 def partition(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    """The door of a stall with its lock, hinges and a pictogram."""
-    image = tint(colour, 0.04 * noise(rng, height, width, (30, 30)))
+    """The door of a stall with its lock, hinges, a pictogram and a notice."""
+    value = 0.04 * noise(rng, height, width, (30, 30)) + 0.16 * noise(rng, height, width, (4, 4))
+    image = tint(colour, value)
+    notice = sheet(rng, int(0.2 * height), int(0.42 * width))
+    top, left = int(0.40 * height), int(0.22 * width)
+    image[top : top + notice.shape[0], left : left + notice.shape[1]] = notice
     cv2.rectangle(image, (2, 2), (width - 3, height - 3), (120, 126, 130), 3)
     lock = int(0.85 * width), int(0.5 * height)
     cv2.circle(image, lock, 11, (196, 198, 200), -1, cv2.LINE_AA)
