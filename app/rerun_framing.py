@@ -59,7 +59,7 @@ def level_axes(T_world_camera: FloatArray) -> Axes:
     """
     x, y = T_world_camera[:, :3, 0], T_world_camera[:, :3, 1].mean(axis=0)
     y = y / max(float(np.linalg.norm(y)), 1e-9)
-    spread = x.T @ x / len(x) + 0.05 * (np.eye(3) - np.outer(y, y))
+    spread = x.T @ x / len(x) + 0.01 * (np.eye(3) - np.outer(y, y))
     up = np.linalg.eigh(spread)[1][:, 0]
     up = up if up @ y < 0 else -up
     first = x[0] - (x[0] @ up) * up

@@ -126,8 +126,8 @@ def _step_colour(before: Pose, after: Pose) -> Colour:
     return STATE_COLOURS[after.state]
 
 
-def log_map(recording: rr.RecordingStream, view: MapView, low: Mask, radius: float) -> None:
-    """Send the map as it is now; those of its points that are not `low` hide it and go apart."""
+def log_cloud(recording: rr.RecordingStream, view: MapView, low: Mask, radius: float) -> None:
+    """Send the map's points; those that are not `low` hide the others and go apart."""
     points, colours = view.points.points_world, view.points.colours
     log = recording.log
     log("world/map/colour", rr.Points3D(points[low], colors=colours[low], radii=radius))
@@ -136,6 +136,11 @@ def log_map(recording: rr.RecordingStream, view: MapView, low: Mask, radius: flo
         points[low], class_ids=view.label_ids[low], radii=radius, show_labels=False
     )
     log("world/map/labels", labels)
+
+
+def log_pose_graph(recording: rr.RecordingStream, view: MapView) -> None:
+    """Send the keyframes and what joins them."""
+    log = recording.log
     keyframes = rr.Points3D(
         view.keyframe_positions, colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)
     )

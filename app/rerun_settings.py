@@ -16,6 +16,9 @@ class ViewerSettings(Settings):
     depth_step: int = Field(2, ge=1, le=16, description="every n-th row and column of the depth")
     max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
     max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
+    max_points_total: int = Field(
+        1_500_000, ge=0, description="points of all maps on the way, spread over the frames"
+    )
     max_points_final: int = Field(300_000, ge=1000, description="points of the last map")
     point_radius_m: float = Field(0.013, gt=0, le=1, description="of the dense map's points")
     headroom_m: float = Field(

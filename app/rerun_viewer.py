@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,13 +29,15 @@ __all__ = ["RerunViewer", "ViewerSettings"]
 FloatArray = NDArray[np.float64]
 
 _NOTHING = np.empty((0, 3))
+# Frames of the path drawn since the last map: each frame sends them anew.
+_RECENT = 300
 
 
 class RerunViewer:
     """Tells Rerun of a run. Nothing is global: several may work side by side.
 
-    Maps on the way are thinned; the last one is drawn densely, and the views are set on it, when
-    the viewer is closed.
+    Maps on the way are thinned, and left out where they come too thick and fast. The last one is
+    drawn densely, and the views are set on it, when the viewer is closed.
 
     Parameters
     ----------
@@ -60,7 +63,8 @@ class RerunViewer:
         self._save, self._spawn = save, spawn
         self._stamps: dict[int, float] = {}
         self._poses: list[Pose] = []
-        self._recent: list[Pose] = []
+        self._recent: deque[Pose] = deque(maxlen=_RECENT)
+        self._points_drawn = 0
         self._said: dict[str, str] = {}
         self._label = ""
         self._map: tuple[int, MapView] | None = None
@@ -103,7 +107,11 @@ class RerunViewer:
         self._recent.clear()
         self._at(frame)
         self._recording.log("world/trajectory/recent", rr.LineStrips3D([]))
-        self._draw_map(view, self.settings.max_points)
+        self._draw_path(view)
+        size = min(len(view.points), self.settings.max_points)
+        if self._points_drawn + size <= self._points_allowed(frame):
+            self._points_drawn += size
+            self._draw_cloud(view, self.settings.max_points)
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
         """Show the topological graph as it is at a frame."""
@@ -120,7 +128,7 @@ class RerunViewer:
         if self._map is not None:
             frame, view = self._map
             self._at(frame)
-            visible = self._draw_map(view, self.settings.max_points_final)
+            visible = self._draw_cloud(view, self.settings.max_points_final)
             self._recording.send_blueprint(self._layout(visible, view.trajectory))
         self._recording.flush()
         self._recording.disconnect()
@@ -169,7 +177,7 @@ class RerunViewer:
         log = self._recording.log
         log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
         positions = np.array([p.T_world_camera[:3, 3] for p in self._recent])
-        log("world/trajectory/recent", rerun_scene.trajectory(positions, self._recent))
+        log("world/trajectory/recent", rerun_scene.trajectory(positions, list(self._recent)))
 
     def _show_status(self, tracking: Tracking) -> None:
         lines = [
@@ -180,8 +188,18 @@ class RerunViewer:
         document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
         self._recording.log("status", document)
 
-    def _draw_map(self, whole: MapView, at_most: int) -> FloatArray:
-        """Draw the map; return those of its points (N, 3) that are not hidden."""
+    def _draw_path(self, view: MapView) -> None:
+        path = rerun_scene.trajectory(view.trajectory, self._poses)
+        self._recording.log("world/trajectory/estimate", path)
+        rerun_scene.log_pose_graph(self._recording, view)
+
+    def _points_allowed(self, frame: int) -> float:
+        """Return how many points may have been drawn by a frame: a share of them all, and a map."""
+        share = (frame + 1) / max(self._session.frames, 1)
+        return self.settings.max_points + share * self.settings.max_points_total
+
+    def _draw_cloud(self, whole: MapView, at_most: int) -> FloatArray:
+        """Draw the map's points; return those (N, 3) that are not hidden."""
         view = thinned_map(whole, at_most)
         # Fewer points are drawn bigger, so that a map on the way does not look like dust.
         thinning = len(whole.points) / max(len(view.points), 1)
@@ -189,9 +207,7 @@ class RerunViewer:
         up = level_axes(self._all_poses()).up
         points = view.points.points_world.astype(np.float64)
         low = below_ceiling(points, view.trajectory, up, self.settings.headroom_m)
-        rerun_scene.log_map(self._recording, view, low, radius)
-        path = rerun_scene.trajectory(view.trajectory, self._poses)
-        self._recording.log("world/trajectory/estimate", path)
+        rerun_scene.log_cloud(self._recording, view, low, radius)
         return points[low]
 
     def _all_poses(self) -> FloatArray:

@@ -1,0 +1,274 @@
+"""A recording is made, verified by Rerun's own tool, and read back."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rerun.chunk import RrdReader
+from scipy.spatial.transform import Rotation
+
+from app.errors import AppError
+from app.rerun_images import encode_depth, has_depth, thinned
+from app.rerun_viewer import RerunViewer, ViewerSettings, thinned_map
+from app.viewer import MapView, SessionView
+from datasets.camera import Intrinsics
+from datasets.frame import Frame
+from datasets.poses import pose
+from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from semantics.labels import LabelSpace
+from slam.features import Features
+from slam.map import PointMap
+from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
+
+N_FRAMES, LOST = 12, 5
+CAMERA = Intrinsics(64, 48, 60.0, 60.0, 31.5, 23.5)
+LABELS = LabelSpace.of(["kitchen", "office"])
+# Bytes that a recording may take: once, for each frame of 64 x 48, for each point of each map.
+BOUND_FIXED, BOUND_A_FRAME, BOUND_A_POINT = 128 * 1024, 10 * 1024, 32
+
+
+def frame_of(index: int) -> Frame:
+    rng = np.random.default_rng(index)
+    colour = rng.integers(0, 255, (48, 64, 3), dtype=np.uint8)
+    depth = np.full((48, 64), 2.5, np.float32)
+    depth[:, :32] = 0
+    return Frame(index, 100.0 + index / 10, colour, depth, CAMERA)
+
+
+def tracking_of(index: int) -> Tracking:
+    state = TrackingState.LOST if index == LOST else TrackingState.OK
+    state = TrackingState.RELOCALISED if index == LOST + 1 else state
+    pixels = np.array([[5.0, 5.0], [60.0, 40.0], [50.0, 20.0]])
+    features = Features(pixels, np.zeros((3, 128), np.float32), np.ones(3, np.float32))
+    T = true_pose(index) if state.has_pose else None
+    closures = (LoopClosure(9, 0, 40),) if index == 9 else ()
+    return Tracking(
+        index, 100.0 + index / 10, state, 20 + index, "features",
+        None if T is None else Anchor(0, T), T, index % 3 == 0, closures, features,
+    )  # fmt: skip
+
+
+def true_pose(index: int) -> np.ndarray:
+    R = Rotation.from_euler("YX", [10 * index, -20], degrees=True).as_matrix()
+    return pose(R, [0.2 * index, 0.0, 0.1 * index])
+
+
+def map_of(frames: int) -> MapView:
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-3, 3, (2000, 3)).astype(np.float32)
+    colours = rng.integers(0, 255, (2000, 3), dtype=np.uint8)
+    path = np.array([true_pose(i)[:3, 3] for i in range(frames) if i != LOST])
+    keyframes = path[::3]
+    links = np.stack([keyframes[:-1], keyframes[1:]], axis=1)
+    return MapView(
+        PointMap(points, colours, np.zeros(2000, np.int32)),
+        rng.integers(0, 3, 2000).astype(np.uint16), keyframes, links, links[:1], path,
+    )  # fmt: skip
+
+
+def graph_of(n: int) -> SemanticGraph:
+    nodes = tuple(
+        GraphNode(
+            i, i * 3, 100 + i * 0.3, true_pose(i * 3)[:3, 3], LABELS.names[1 + i // 2], 1 + i // 2,
+            f"{LABELS.names[1 + i // 2]}1", 0.9, np.empty(0),
+        )
+        for i in range(n)
+    )  # fmt: skip
+    edges = tuple(GraphEdge(i, i + 1, 0.6, EdgeKind.PATH) for i in range(n - 1))
+    return SemanticGraph(LABELS, nodes, edges)
+
+
+@dataclass
+class Recorded:
+    """A recording's rows by entity: component -> values, with frames and stamps."""
+
+    rows: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+
+    @classmethod
+    def read(cls, path: Path) -> Recorded:
+        recorded = cls()
+        for chunk in RrdReader(path).store().stream():
+            rows = recorded.rows.setdefault(chunk.entity_path, [])
+            rows.extend(chunk.to_record_batch().to_pylist())
+        return recorded
+
+    def values(self, entity: str, component: str) -> dict[int, Any]:
+        """Of a component, by frame; None stands for static."""
+        return {
+            row.get("frame"): row[component] for row in self.rows[entity]
+            if row.get(component) is not None
+        }  # fmt: skip
+
+
+def record(path: Path, settings: ViewerSettings | None = None) -> None:
+    viewer = RerunViewer(path, settings=settings)
+    truth = np.array([true_pose(i)[:3, 3] for i in range(N_FRAMES)])
+    viewer.start(SessionView("test", N_FRAMES, CAMERA, LABELS, truth))
+    for i in range(N_FRAMES):
+        if i == 9:
+            viewer.log(i, "loop closed")
+        viewer.show_frame(frame_of(i), tracking_of(i))
+        if i >= 2:
+            viewer.show_label(i - 2, 1 + i // 8, LABELS.names[1 + i // 8], 0.5 + i / 100)
+        if i in (0, 9):
+            viewer.show_map(i, map_of(i + 1))
+        if i % 3 == 0:
+            viewer.show_graph(i, graph_of(i // 3 + 1))
+    viewer.show_map(N_FRAMES - 1, map_of(N_FRAMES))
+    viewer.close()
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("rerun") / "recording.rrd"
+    record(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def recorded(recording: Path) -> Recorded:
+    return Recorded.read(recording)
+
+
+def test_rerun_verifies_it(recording: Path) -> None:
+    command = [sys.executable, "-m", "rerun", "rrd", "verify", str(recording)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_everything_shown_is_there(recorded: Recorded) -> None:
+    world = {
+        "camera", "camera/image", "camera/image/colour", "camera/image/features/with_depth",
+        "camera/image/features/plain", "camera/depth", "camera/depth/image", "map/colour",
+        "map/labels", "map/above", "trajectory/estimate", "trajectory/recent", "trajectory/truth",
+        "keyframes", "pose_graph/links", "pose_graph/loops", "graph/nodes", "graph/edges",
+        "graph/places",
+    }  # fmt: skip
+    others = {
+        "graph/nodes", "graph/places", "plots/inliers", "plots/score", "timeline/label",
+        "timeline/tracking", "events", "status",
+    }  # fmt: skip
+    wanted = {f"/world/{name}" for name in world} | {f"/{name}" for name in others} | {"/world"}
+    assert wanted <= set(recorded.rows)
+
+
+def test_every_frame_is_there_with_its_stamp(recorded: Recorded) -> None:
+    jpegs = recorded.values("/world/camera/image/colour", "EncodedImage:blob")
+    assert sorted(jpegs) == list(range(N_FRAMES))
+    depths = recorded.values("/world/camera/depth/image", "EncodedDepthImage:blob")
+    assert sorted(depths) == list(range(0, N_FRAMES, 2))
+    stamps = {row["frame"]: row["stamp"] for row in recorded.rows["/world/camera/image/colour"]}
+    assert stamps[7].total_seconds() == pytest.approx(100.7)
+
+
+def test_poses_come_back(recorded: Recorded) -> None:
+    translations = recorded.values("/world/camera", "Transform3D:translation")
+    rotations = recorded.values("/world/camera", "Transform3D:mat3x3")
+    assert sorted(translations) == [i for i in range(N_FRAMES) if i != LOST]
+    for i, translation in translations.items():
+        np.testing.assert_allclose(translation[0], true_pose(i)[:3, 3], atol=1e-6)
+        R = np.reshape(rotations[i][0], (3, 3)).T  # Rerun's matrices are column-major.
+        np.testing.assert_allclose(R, true_pose(i)[:3, :3], atol=1e-6)
+
+
+def test_labels_come_back(recorded: Recorded) -> None:
+    view = map_of(N_FRAMES)
+    positions = recorded.values("/world/map/labels", "Points3D:positions")[N_FRAMES - 1]
+    ids = recorded.values("/world/map/labels", "Points3D:class_ids")[N_FRAMES - 1]
+    known = {
+        tuple(p): i for p, i in zip(view.points.points_world.tolist(), view.label_ids, strict=True)
+    }
+    assert 0 < len(positions) < len(view.points)
+    assert [known[tuple(p)] for p in positions] == ids
+    scores = recorded.values("/plots/score", "Scalars:scalars")
+    assert scores[4] == [pytest.approx(0.56)]
+    changes = recorded.values("/timeline/label", "StateChange:state")
+    assert changes == {0: ["kitchen"], 6: ["office"]}
+    (context,) = recorded.values("/world", "AnnotationContext:context").values()
+    infos = [entry["class_description"]["info"] for entry in context[0]]
+    assert {info["id"]: info["label"] for info in infos} == dict(enumerate(LABELS.names))
+
+
+def test_what_hides_the_rooms_is_apart(recorded: Recorded) -> None:
+    last = N_FRAMES - 1
+    low = recorded.values("/world/map/colour", "Points3D:positions")[last]
+    high = recorded.values("/world/map/above", "Points3D:positions")[last]
+    assert len(low) + len(high) == 2000
+    assert min(-p[1] for p in high) > np.mean([-p[1] for p in low])
+
+
+def test_states_are_told_and_coloured(recorded: Recorded) -> None:
+    states = recorded.values("/timeline/tracking", "StateChange:state")
+    assert states == {0: ["ok"], LOST: ["lost"], LOST + 1: ["relocalised"], LOST + 2: ["ok"]}
+    strips = recorded.values("/world/trajectory/estimate", "LineStrips3D:strips")[N_FRAMES - 1]
+    assert [len(strip) for strip in strips] == [5, 2, 6]  # tracked, lost, tracked
+    assert recorded.values("/events", "TextLog:text") == {9: ["loop closed"]}
+
+
+def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
+    last = recorded.values("/graph/nodes", "GraphNodes:node_ids")
+    assert last[9] == ["0", "1", "2", "3"]
+    assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
+    assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
+
+
+def test_it_stays_small(recording: Path) -> None:
+    points = 4 * 2000  # three maps, the last of them once more by close()
+    bound = BOUND_FIXED + N_FRAMES * BOUND_A_FRAME + points * BOUND_A_POINT
+    assert recording.stat().st_size < bound
+
+
+def test_maps_are_thinned_and_left_out_when_too_many(tmp_path: Path) -> None:
+    path = tmp_path / "thin.rrd"
+    record(path, ViewerSettings(max_points=1000, max_points_total=0, colour_stride=4))
+    recorded = Recorded.read(path)
+    rows = recorded.rows["/world/map/colour"]
+    above = recorded.rows["/world/map/above"]
+    sizes = [
+        len(a["Points3D:positions"]) + len(b["Points3D:positions"])
+        for a, b in zip(rows, above, strict=True)
+    ]
+    assert sizes == [1000, 2000]  # the first, and the last one in full
+    paths = recorded.values("/world/trajectory/estimate", "LineStrips3D:strips")
+    assert sorted(paths) == [0, 9, N_FRAMES - 1]
+    jpegs = recorded.values("/world/camera/image/colour", "EncodedImage:blob")
+    assert sorted(jpegs) == [0, 4, 8]
+
+
+def test_a_run_without_a_single_pose_can_be_closed(tmp_path: Path) -> None:
+    viewer = RerunViewer(tmp_path / "empty.rrd")
+    viewer.start(SessionView("empty", 1, CAMERA, LabelSpace(), None))
+    nothing = np.empty((0, 3))
+    points = PointMap(nothing.astype(np.float32), nothing.astype(np.uint8), np.empty(0, np.int32))
+    ends = np.empty((0, 2, 3))
+    empty = MapView(points, np.empty(0, np.uint16), nothing, ends, ends, nothing)
+    viewer.show_frame(frame_of(LOST), tracking_of(LOST))
+    viewer.show_map(0, empty)
+    viewer.show_graph(0, SemanticGraph(LabelSpace(), (), ()))
+    viewer.close()
+    assert "/status" in Recorded.read(tmp_path / "empty.rrd").rows
+
+
+def test_errors_say_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(AppError, match="NoViewer"):
+        RerunViewer(None)
+    viewer = RerunViewer(tmp_path / "missing" / "folder" / "a.rrd")
+    with pytest.raises(AppError, match=r"a\.rrd"):
+        viewer.start(SessionView("x", 1, CAMERA, LABELS, None))
+
+
+def test_thinned_images_and_maps_keep_their_geometry() -> None:
+    small = thinned(CAMERA, 2)
+    assert (small.width, small.height, small.fx) == (32, 24, 30.0)
+    frame = frame_of(0)
+    assert len(encode_depth(frame, 2)) < len(encode_depth(frame, 1))
+    pixels = np.array([[5.0, 5.0], [60.0, 40.0], [63.4, 47.4]])
+    np.testing.assert_array_equal(has_depth(frame, pixels), [False, True, True])
+    view = thinned_map(map_of(4), 100)
+    assert len(view.points) == len(view.label_ids) == len(view.points.keyframes) == 100
