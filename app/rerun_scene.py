@@ -15,7 +15,7 @@ from app.rerun_images import DEPTH_UNITS_PER_M, thinned
 from app.viewer import MapView, SessionView
 from datasets.camera import Intrinsics
 from semantics.graph import EdgeKind, SemanticGraph
-from semantics.labels import Colour, LabelSpace
+from semantics.labels import UNKNOWN, Colour, LabelSpace
 from slam.tracking import TrackingState
 
 FloatArray = NDArray[np.float64]
@@ -154,10 +154,12 @@ def _lines(ends: FloatArray, colour: Colour, radius: float) -> rr.LineStrips3D:
 
 
 def place_spots(graph: SemanticGraph) -> dict[str, int]:
-    """Return the node that bears the name of each place: the one in the middle of its nodes."""
+    """Return the node that bears the name of each known place: the one in its middle."""
     places = np.array([node.place for node in graph.nodes])
     positions, spots = graph.positions, {}
     for place in graph.places:
+        if place == UNKNOWN:
+            continue
         members = np.flatnonzero(places == place)
         offsets = positions[members] - np.median(positions[members], axis=0)
         spots[place] = int(members[np.linalg.norm(offsets, axis=1).argmin()])
@@ -169,6 +171,7 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
     if not graph.nodes:
         return
     spots = place_spots(graph)
+    named = np.array(list(spots.values()), dtype=np.intp)
     ends = np.array([(e.source, e.target) for e in graph.edges], dtype=np.intp).reshape(-1, 2)
     edges = rr.LineStrips3D(
         graph.positions[ends], colors=[EDGE_COLOURS[edge.kind] for edge in graph.edges],
@@ -179,7 +182,7 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
         radii=rr.Radius.ui_points(6.0), show_labels=False,
     )  # fmt: skip
     names = rr.Points3D(
-        graph.positions[list(spots.values())], labels=list(spots), show_labels=True,
+        graph.positions[named], labels=list(spots), show_labels=True,
         colors=[_readable(_colour(graph, i)) for i in spots.values()],
         radii=rr.Radius.ui_points(8.0),
     )  # fmt: skip
@@ -206,7 +209,7 @@ def _log_plan(
         [(ids[edge.source], ids[edge.target]) for edge in graph.edges], graph_type="undirected"
     )
     names = rr.GraphNodes(
-        list(spots), positions=plan[list(spots.values())], labels=list(spots), show_labels=True,
+        list(spots), positions=plan[np.array(list(spots.values()), dtype=np.intp)], labels=list(spots), show_labels=True,
         colors=[_readable(_colour(graph, i)) for i in spots.values()],
     )  # fmt: skip
     recording.log("graph/nodes", nodes, edges)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from app.errors import AppError
 from app.rerun_images import encode_depth, has_depth, thinned
+from app.rerun_scene import place_spots
 from app.rerun_viewer import RerunViewer, ViewerSettings, thinned_map
 from app.viewer import MapView, SessionView
 from datasets.camera import Intrinsics
@@ -216,6 +217,12 @@ def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
     assert last[9] == ["0", "1", "2", "3"]
     assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
     assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
+
+
+def test_nodes_of_unknown_place_have_no_name() -> None:
+    known = graph_of(2)
+    unknown = tuple(replace(node, place="unknown") for node in known.nodes[1:])
+    assert place_spots(replace(known, nodes=(known.nodes[0], *unknown))) == {"kitchen1": 0}
 
 
 def test_it_stays_small(recording: Path) -> None:
