@@ -34,7 +34,10 @@ class Atlas:
 
 
 def pack(sizes: Sequence[tuple[int, int]], width: int, gap: int) -> tuple[NDArray[np.int64], int]:
-    """Place rectangles (height, width) on shelves; return top left corners (N, 2) x, y and the height."""
+    """Place rectangles (height, width) on shelves of a width.
+
+    Return their top left corners (N, 2), x, y, and the height of all shelves.
+    """
     places = np.zeros((len(sizes), 2), dtype=np.int64)
     x = y = shelf = 0
     for index in sorted(range(len(sizes)), key=lambda i: (-sizes[i][0], -sizes[i][1])):

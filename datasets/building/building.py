@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,12 @@ from datasets.building.rooms import bathroom, corridor, elevator, kitchen, labor
 from datasets.building.rooms.site import Site, Style, make_site
 
 FloatArray = NDArray[np.float64]
+KINDS: dict[str, tuple[Callable[[Site], None], Callable[[Site], Style]]] = {
+    "kitchen": (kitchen.furnish, kitchen.style),
+    "bathroom": (bathroom.furnish, bathroom.style),
+    "laboratory": (laboratory.furnish, laboratory.style),
+    "elevator_area": (elevator.furnish, elevator.style),
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,9 +93,6 @@ def _furnish(site: Site, plan: FloorPlan, seed: int) -> Style:
     if label == "corridor":
         corridor.furnish(site, plan)
         return corridor.style(site)
-    kind = {
-        "kitchen": kitchen, "bathroom": bathroom, "laboratory": laboratory,
-        "elevator_area": elevator,
-    }[label]  # fmt: skip
-    kind.furnish(site)
-    return kind.style(site)
+    furnish, style = KINDS[label]
+    furnish(site)
+    return style(site)

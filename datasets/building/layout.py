@@ -153,12 +153,12 @@ def _assemble(
 ) -> FloorPlan:
     length, width = corridor
     lobby_width, lobby_depth = (float(rng.uniform(*size)) for size in SIZES["elevator_area"])
-    shift = float(rng.uniform(-0.3, 0.3))
+    shift, half = float(rng.uniform(-0.3, 0.3)), lobby_depth / 2
     rooms = [
         Room("corridor1", "corridor", Rectangle(0, -width / 2, length, width / 2)),
         Room(
             "elevator_area1", "elevator_area",
-            Rectangle(-WALL_M - lobby_width, shift - lobby_depth / 2, -WALL_M, shift + lobby_depth / 2),
+            Rectangle(-WALL_M - lobby_width, shift - half, -WALL_M, shift + half),
         ),
     ]  # fmt: skip
     opening = (-WALL_M / 2, 0.0), "y", width - 0.3, 2.3

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +32,16 @@ class Material:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Quad:
-    """Four corners (4, 3), clockwise from the top left as seen from outside, and the part of the
-    material's image, 0 to 1, that they show: left, top, right, bottom.
+    """A four-sided surface that shows a part of a material's image.
+
+    Attributes
+    ----------
+    corners : (4, 3) float64
+        Clockwise from the top left as seen from outside, metres.
+    material : Material
+        What it is made of.
+    window : (float, float, float, float)
+        The part of the image to be seen: left, top, right, bottom, each 0 to 1.
     """
 
     corners: FloatArray
@@ -79,8 +88,7 @@ def _pieces(length: float, size: float) -> list[tuple[float, float, float]]:
     count = max(1, int(np.ceil(length / size - 1e-6)))
     edges = np.minimum(np.arange(count + 1) * size / max(length, 1e-9), 1.0)
     return [
-        (float(a), float(b), min(1.0, float((b - a) * length / size)))
-        for a, b in zip(edges[:-1], edges[1:], strict=True)
+        (float(a), float(b), min(1.0, float((b - a) * length / size))) for a, b in pairwise(edges)
     ]
 
 

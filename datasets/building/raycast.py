@@ -16,8 +16,18 @@ THREADS = 2
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hits:
-    """Where rays end: `t` in lengths of the ray's direction, the triangle (-1: none), and the
-    place in it (`u`, `v`) with the surface's normal.
+    """Where rays end.
+
+    Attributes
+    ----------
+    t : (...) float32
+        How far away, in lengths of the ray's direction; infinite where there is nothing.
+    triangle : (...) int32
+        Which triangle is hit; -1 for none.
+    uv : (..., 2) float32
+        Where in the triangle.
+    normals : (..., 3) float32
+        The triangle's normal, towards either side.
     """
 
     t: NDArray[np.float32]

@@ -120,7 +120,7 @@ class Renderer:
         place += other
         first.take(triangle, axis=0, mode="wrap", out=other)
         place += other
-        return place
+        return np.asarray(place)
 
     def _albedo(
         self,
@@ -157,9 +157,9 @@ def _in_level(
 
 def _camera_rays(intrinsics: Intrinsics) -> Float32Array:
     """Return ray directions (H, W, 3) with z = 1, so that the ray's parameter is the depth."""
-    x, y = np.meshgrid(np.arange(intrinsics.width), np.arange(intrinsics.height))
-    x, y = (x - intrinsics.cx) / intrinsics.fx, (y - intrinsics.cy) / intrinsics.fy
-    return np.stack([x, y, np.ones_like(x)], axis=-1).astype(np.float32)
+    x = (np.arange(intrinsics.width) - intrinsics.cx) / intrinsics.fx
+    y = (np.arange(intrinsics.height) - intrinsics.cy) / intrinsics.fy
+    return np.stack([*np.meshgrid(x, y), np.ones((len(y), len(x)))], axis=-1).astype(np.float32)
 
 
 def _lay_out(quads: Sequence[Quad]) -> tuple[Atlas, FloatArray, FloatArray]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from datasets.building.layout import CEILING_M, WALL_M, Doorway, FloorPlan
@@ -41,7 +43,7 @@ def _strips(stand: Stand, span: tuple[float, float], foot: float, strip: Materia
     """Cover a stretch of wall from `foot` upwards with the upper part of the strip."""
     count = max(1, int(np.ceil((span[1] - span[0]) / STRIP_M - 1e-9)))
     edges = np.minimum(span[0] + np.arange(count + 1) * STRIP_M, span[1])
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in pairwise(edges):
         if b - a < 1e-6:
             continue
         corners = stand.world([(a, 0, CEILING_M), (b, 0, CEILING_M), (b, 0, foot), (a, 0, foot)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,16 @@ SPEED_SMOOTHING_M = 0.12
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Way:
-    """One lap, sampled every `SAMPLE_M` or so: points (N, 2), headings (N,) without jumps, and
-    the arc length (N,) at each. The last sample is where the first is.
+    """One lap, sampled every `SAMPLE_M` or so; the last sample is where the first is.
+
+    Attributes
+    ----------
+    xy : (N, 2) float64
+        Points on the floor, metres.
+    heading : (N,) float64
+        Where the camera looks, radians, without jumps.
+    arc_m : (N,) float64
+        Length of the way so far.
     """
 
     xy: FloatArray
@@ -98,7 +107,7 @@ def find_way(building: Building) -> Way:
 def _densify(corners: FloatArray) -> FloatArray:
     """Return points about `SPACING_M` apart along a closed polygon, every corner among them."""
     points = []
-    for a, b in zip(corners[:-1], corners[1:], strict=True):
+    for a, b in pairwise(corners):
         count = max(1, round(float(np.linalg.norm(b - a)) / SPACING_M))
         points.append(a + np.arange(count)[:, None] / count * (b - a))
     return np.concatenate(points)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from datasets.building.layout import CEILING_M, FloorPlan
 from datasets.building.mesh import Image, Material, Stand
 from datasets.building.rooms.site import (
@@ -50,7 +52,7 @@ def furnish(site: Site, plan: FloorPlan) -> None:
             continue
         _plates(site, wall.stand, side, plan)
         edges = [(0.0, 0.0, 0.0), *openings, (wall.length, wall.length, 0.0)]
-        for before, after in zip(edges[:-1], edges[1:], strict=True):
+        for before, after in pairwise(edges):
             _stretch(site, wall.stand, before[1] + 0.42, after[0] - 0.18, face)
 
 

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import cv2
 
-from datasets.building.mesh import Material, Stand
+from datasets.building.mesh import Image, Material, Stand
 from datasets.building.rooms.site import Site, Style, material, paint, strip
 from datasets.building.textures import ink, kitchen, patterns
 from datasets.building.textures.patterns import Colour
 
 FACES: tuple[Colour, ...] = ((222, 214, 196), (182, 132, 84), (150, 176, 160), (206, 196, 190))
 FLOORS: tuple[Colour, ...] = ((196, 120, 84), (214, 186, 146), (150, 110, 86))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Front:
+    """What the cupboards of a kitchen look like."""
+
+    face: Image
+    handle: int
+    panel: bool
 
 
 def style(site: Site) -> Style:
@@ -34,14 +45,14 @@ def furnish(site: Site) -> None:
         if rng.random() < 0.5
         else patterns.plaster(rng, 256, 256, colour)
     )
-    handle, panel = int(rng.integers(3)), bool(rng.random() < 0.6)
+    front = Front(face, int(rng.integers(3)), bool(rng.random() < 0.6))
     splash = _splash(site)
     main, other = ("left", "right") if rng.random() < 0.5 else ("right", "left")
     start = 0.3 if main == "left" else 0.72
     length = walls[main].length - 1.02
-    _kitchenette(site, walls[main].stand.at(start), length, (face, handle, panel), splash, True)
+    _cooking_side(site, walls[main].stand.at(start), length, front, splash)
     far = walls["far"]
-    _kitchenette(site, far.stand.at(0.05), far.length - 0.1, (face, handle, panel), splash, False)
+    _washing_side(site, far.stand.at(0.05), far.length - 0.1, front, splash)
     site.window("far", far.length / 2, 1.3)
     _fridge(site, walls[other].stand.at(0.68 if other == "right" else walls[other].length - 1.42))
     start = 1.6 if other == "right" else 0.3
@@ -59,52 +70,56 @@ def _splash(site: Site) -> Material:
     return material(patterns.tiles(rng, (170, 420), (side, side), colours, (150, 146, 138), 0.45))
 
 
-def _kitchenette(
-    site: Site,
-    stand: Stand,
-    length: float,
-    front: tuple[patterns.Image, int, bool],
-    splash: Material,
-    hanging: bool,
-) -> None:
-    """Build base units under a worktop; with hob, oven and wall units, or else with the sink."""
+def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash: Material) -> None:
+    """Build base and wall units, with an oven under a hob and a hood above them."""
     rng = site.rng
-    face, handle, panel = front
-    body = material(face)
-    top = material(patterns.stone(rng, 160, 420, (120, 112, 106), 1000))
-    count = max(2, round(length / 0.6))
-    unit = length / count
-    special = int(rng.integers(1, max(2, count - 1)))
-    for i in range(count):
-        x = (i * unit, (i + 1) * unit)
-        if hanging and i == special:
-            picture = Material(kitchen.oven(rng, 200, 150), shiny=True)
-        elif rng.random() < 0.35:
-            picture = Material(kitchen.drawers(face[:200, :150], 3))
-        else:
-            picture = Material(kitchen.cupboard(face[:200, :150], handle, panel))
-        stand.box(x, (0, 0.58), (0.10, 0.86), body, front=picture)
-        if hanging and i != special:
-            leaf = Material(kitchen.cupboard(face[:180, :150], handle, panel))
-            stand.box(x, (0, 0.34), (1.42, 2.10), body, front=leaf)
-    stand.box((0, length), (0, 0.54), (0, 0.10), paint((50, 48, 46)))
-    stand.box((0, length), (0, 0.61), (0.86, 0.90), top)
-    stand.wall((0, length), (0.90, 1.42 if hanging else 0.95), 0.006, splash)
+    steel = patterns.steel(rng, 220, 160)
+    oven = Material(kitchen.oven(rng, 200, 150), shiny=True)
+    count = max(3, round(length / 0.6))
+    unit, special = length / count, int(rng.integers(1, count - 1))
     place = (special * unit, (special + 1) * unit)
-    if hanging:
-        stand.sheet(place, (0.06, 0.56), 0.903, Material(kitchen.hob(rng, 130, 150)))
-        stand.box(
-            place, (0, 0.42), (1.55, 1.72), material(patterns.steel(rng, 100, 160), shiny=True)
-        )
-        stand.wall(place, (1.72, 2.55), 0.01, material(patterns.steel(rng, 220, 160)))
-    else:
-        middle = length / 2
-        basin = Material(kitchen.sink(rng, 120, 230), shiny=True)
-        stand.sheet((middle - 0.45, middle + 0.45), (0.06, 0.54), 0.903, basin)
-        steel = paint((190, 194, 198))
-        stand.prism((middle - 0.2, 0.1), (0.9, 1.15), 0.02, steel)
-        stand.box((middle - 0.22, middle - 0.18), (0.1, 0.3), (1.13, 1.16), steel)
-    _things(site, stand, length, place if hanging else (length / 2 - 0.5, length / 2 + 0.5))
+    _base_units(site, stand, length, count, front, {special: oven})
+    for i in range(count):
+        if i != special:
+            leaf = Material(kitchen.cupboard(front.face[:180, :150], front.handle, front.panel))
+            span = (i * unit, (i + 1) * unit)
+            stand.box(span, (0, 0.34), (1.42, 2.10), material(front.face), front=leaf)
+    stand.wall((0, length), (0.90, 1.42), 0.006, splash)
+    stand.sheet(place, (0.06, 0.56), 0.903, Material(kitchen.hob(rng, 130, 150)))
+    stand.box(place, (0, 0.42), (1.55, 1.72), material(steel, shiny=True))
+    stand.wall(place, (1.72, 2.55), 0.01, material(steel))
+    _things(site, stand, length, place)
+
+
+def _washing_side(site: Site, stand: Stand, length: float, front: Front, splash: Material) -> None:
+    """Build base units with a sink in the middle of the worktop."""
+    middle, steel = length / 2, paint((190, 194, 198))
+    _base_units(site, stand, length, max(3, round(length / 0.6)), front, {})
+    stand.wall((0, length), (0.90, 0.95), 0.006, splash)
+    basin = Material(kitchen.sink(site.rng, 120, 230), shiny=True)
+    stand.sheet((middle - 0.45, middle + 0.45), (0.06, 0.54), 0.903, basin)
+    stand.prism((middle - 0.2, 0.1), (0.9, 1.15), 0.02, steel)
+    stand.box((middle - 0.22, middle - 0.18), (0.1, 0.3), (1.13, 1.16), steel)
+    _things(site, stand, length, (middle - 0.5, middle + 0.5))
+
+
+def _base_units(
+    site: Site, stand: Stand, length: float, count: int, front: Front, special: dict[int, Material]
+) -> None:
+    """Build a row of base units, some with drawers, on a plinth and under a worktop."""
+    rng, face, unit = site.rng, front.face[:200, :150], length / count
+    for i in range(count):
+        if i in special:
+            picture = special[i]
+        elif rng.random() < 0.35:
+            picture = Material(kitchen.drawers(face, 3))
+        else:
+            picture = Material(kitchen.cupboard(face, front.handle, front.panel))
+        span = (i * unit, (i + 1) * unit)
+        stand.box(span, (0, 0.58), (0.10, 0.86), material(front.face), front=picture)
+    stand.box((0, length), (0, 0.54), (0, 0.10), paint((50, 48, 46)))
+    top = material(patterns.stone(rng, 160, 420, (120, 112, 106), 1000))
+    stand.box((0, length), (0, 0.61), (0.86, 0.90), top)
 
 
 def _things(site: Site, stand: Stand, length: float, keep: tuple[float, float]) -> None:

@@ -44,10 +44,10 @@ def _bench(site: Site, stand: Stand, length: float, colour: Colour, *, shelf: bo
         front = kitchen.drawers(face, 4) if rng.random() < 0.6 else kitchen.cupboard(face, 2, False)
         stand.box(x, (0, 0.60), (0.08, 0.82), body, front=Material(front))
     stand.box((0, length), (0, 0.66), (0.82, 0.86), top)
-    x = 0.08
-    while x < length - 0.3:
+    at = 0.08
+    while at < length - 0.3:
         wide = float(rng.uniform(0.32, 0.5))
-        x += _on_bench(site, stand.at(x), min(wide, length - x - 0.05)) + float(
+        at += _on_bench(site, stand.at(at), min(wide, length - at - 0.05)) + float(
             rng.uniform(0.05, 0.2)
         )
     if shelf:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from datasets.building.mesh import Image, Material, Stand
 from datasets.building.rooms.site import SCREEN_GLOW, Site, Style, material, paint, strip
-from datasets.building.textures import ink, office, patterns
+from datasets.building.textures import ink, kitchen, office, patterns
 from datasets.building.textures.patterns import Colour
 
 
@@ -123,9 +123,7 @@ def _desk(site: Site, stand: Stand, width: float, top: Image, wood: Material, lo
 
 
 def _drawers(site: Site, wood: Material) -> Material:
-    from datasets.building.textures.kitchen import drawers
-
-    return Material(drawers(wood.image[:170, :102], 3))
+    return Material(kitchen.drawers(wood.image[:170, :102], 3))
 
 
 def _chair(site: Site, stand: Stand, look: Theme) -> None:
@@ -155,9 +153,7 @@ def _shelf(site: Site, stand: Stand, width: float, wood: Material, look: Theme) 
 
 def _cabinet(site: Site, stand: Stand, wood: Material) -> None:
     """Place a low cabinet with a printer on it."""
-    from datasets.building.textures.kitchen import cupboard
-
-    leaf = Material(cupboard(wood.image[:180, :200], 0, False))
+    leaf = Material(kitchen.cupboard(wood.image[:180, :200], 0, False))
     stand.box((0, 0.75), (0, 0.45), (0, 0.72), wood, front=leaf)
     grey = paint((206, 206, 202))
     panel = patterns.plain(70, 120, (200, 200, 196))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -42,8 +41,10 @@ class Wall:
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A room being built. `walls` go round clockwise from the one with the door: door, left,
-    far, right, as one sees them on coming in.
+    """A room being built.
+
+    Its `walls` go round from the one with the door: door, left, far, right, as one sees them on
+    coming in.
     """
 
     room: Room
@@ -96,9 +97,6 @@ class Site:
         self.lamps.append(Lamp(_triple(place), (0, 0, 1), 1.2, EVENING))
         below = stand.world([(x, y, z + 0.2)])[0]
         self.lamps.append(Lamp(_triple(below), (0, 0, -1), 0.5, EVENING))
-
-
-Furnisher = Callable[[Site], None]
 
 
 def _triple(point: np.ndarray) -> tuple[float, float, float]:

@@ -11,7 +11,7 @@ from datasets.building.textures.patterns import Colour, Generator, noise, pick, 
 
 
 def mirror(rng: Generator, height: int, width: int, opposite: Image) -> Image:
-    """A mirror that shows the tiles of the other side, out of focus and pale."""
+    """Draw a mirror that shows the tiles of the other side, out of focus and pale."""
     picture = cv2.resize(opposite, (width, height), interpolation=cv2.INTER_AREA)
     soft = cv2.GaussianBlur(picture, (0, 0), 2.0)
     image = np.asarray(cv2.addWeighted(soft, 0.6, plain(height, width, (206, 222, 228)), 0.4, 0))
@@ -26,7 +26,7 @@ def mirror(rng: Generator, height: int, width: int, opposite: Image) -> Image:
 
 
 def dispenser(rng: Generator, height: int, width: int) -> Image:
-    """A dispenser of paper towels: steel or white, keyhole, slot, a towel hanging out."""
+    """Draw a dispenser of paper towels: steel or white, keyhole, slot, a towel hanging out."""
     white = rng.random() < 0.5
     image = plain(height, width, (232, 232, 230)) if white else steel(rng, height, width)
     cv2.rectangle(image, (1, 1), (width - 2, height - 2), (90, 94, 98), 2)
@@ -48,7 +48,7 @@ def dispenser(rng: Generator, height: int, width: int) -> Image:
 
 
 def dryer(rng: Generator, height: int, width: int) -> Image:
-    """A hand dryer."""
+    """Draw a hand dryer."""
     image = steel(rng, height, width)
     cv2.rectangle(image, (2, 2), (width - 3, height - 3), (80, 84, 88), 3)
     cv2.circle(image, (width // 2, height // 2), height // 5, (40, 44, 50), -1, cv2.LINE_AA)
@@ -59,7 +59,7 @@ def dryer(rng: Generator, height: int, width: int) -> Image:
 
 
 def partition(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    """The door of a stall with its lock, hinges, a pictogram and a notice."""
+    """Draw the door of a stall with its lock, hinges, a pictogram and a notice."""
     value = 0.04 * noise(rng, height, width, (30, 30)) + 0.16 * noise(rng, height, width, (4, 4))
     image = tint(colour, value)
     notice = sheet(rng, int(0.2 * height), int(0.42 * width))
@@ -82,8 +82,13 @@ def person(image: Image, centre: tuple[int, int], size: int, colour: Colour) -> 
     """Draw the pictogram of a person."""
     x, y = centre
     cv2.circle(image, (x, y - size), size // 3, colour, -1, cv2.LINE_AA)
-    body = [(x - size // 2, y - size // 2), (x + size // 2, y - size // 2), (x + size // 3, y + size // 2),
-            (x - size // 3, y + size // 2)]  # fmt: skip
+    half, third = size // 2, size // 3
+    body = [
+        (x - half, y - half),
+        (x + half, y - half),
+        (x + third, y + half),
+        (x - third, y + half),
+    ]
     cv2.fillConvexPoly(image, np.array(body, dtype=np.int32), colour, cv2.LINE_AA)
     for leg in (-size // 6, size // 6):
         cv2.line(
@@ -96,7 +101,7 @@ def person(image: Image, centre: tuple[int, int], size: int, colour: Colour) -> 
 
 
 def wash_sign(rng: Generator, height: int, width: int) -> Image:
-    """A sign that asks to wash one's hands, in steps."""
+    """Draw a sign that asks to wash one's hands, in steps."""
     image = plain(height, width, (244, 248, 250))
     blue = pick(rng, ((30, 100, 170), (20, 140, 150)))
     cv2.rectangle(image, (0, 0), (width, height // 5), blue, -1)
@@ -122,7 +127,7 @@ def wash_sign(rng: Generator, height: int, width: int) -> Image:
 
 
 def basin(height: int, width: int) -> Image:
-    """A washbasin from above: bowl, drain, tap."""
+    """Draw a washbasin from above: bowl, drain, tap."""
     image = plain(height, width, (240, 242, 242))
     centre = width // 2, int(0.55 * height)
     cv2.ellipse(
@@ -155,7 +160,7 @@ def basin(height: int, width: int) -> Image:
 
 
 def shower_curtain(rng: Generator, height: int, width: int) -> Image:
-    """A curtain in folds with a pattern of dots, drops or stripes."""
+    """Draw a curtain in folds with a pattern of dots, drops or stripes."""
     folds = 0.16 * np.sin(np.arange(width, dtype=np.float32) / 9)
     colour = pick(rng, ((200, 224, 232), (226, 232, 214), (220, 214, 232)))
     image = tint(colour, np.repeat(folds[None], height, axis=0))

@@ -17,10 +17,11 @@ from datasets.building.textures.patterns import (
 )
 
 WORDS = (
-    "room plan meeting report notes data survey report draft paper review project design "
-    "safety order invoice minutes agenda archive index budget staff public open close map "
-    "study method result figure table volume letter office service contract model summary"
-).split()
+    "room", "plan", "meeting", "report", "notes", "data", "survey", "draft", "paper", "review",
+    "project", "design", "safety", "order", "invoice", "minutes", "agenda", "archive", "index",
+    "budget", "staff", "public", "open", "close", "map", "study", "method", "result", "figure",
+    "table", "volume", "letter", "office", "service", "contract", "model", "summary",
+)  # fmt: skip
 VIVID: tuple[Colour, ...] = (
     (196, 48, 42), (32, 84, 160), (44, 130, 72), (226, 168, 36), (120, 58, 132), (24, 140, 150),
     (214, 106, 34), (52, 52, 60), (150, 40, 70), (92, 116, 40), (230, 222, 206), (70, 110, 180),
@@ -83,10 +84,9 @@ def chart(rng: Generator, image: Image, box: tuple[int, int, int, int]) -> None:
         step = max(2, (right - left) // count)
         for i in range(count):
             height = int(rng.uniform(0.15, 0.95) * (bottom - top))
-            x = left + i * step
-            cv2.rectangle(
-                image, (x + 1, bottom - height), (x + step - 2, bottom), pick(rng, VIVID), -1
-            )
+            bar = left + i * step + 1
+            end = bar + step - 3, bottom
+            cv2.rectangle(image, (bar, bottom - height), end, pick(rng, VIVID), -1)
     elif kind == 1:
         for _ in range(3):
             steps = np.cumsum(rng.standard_normal(24))
@@ -100,8 +100,8 @@ def chart(rng: Generator, image: Image, box: tuple[int, int, int, int]) -> None:
         radius = max(2, min(right - left, bottom - top) // 2 - 2)
         edges = np.sort(rng.integers(0, 360, 4))
         for a, b in zip(edges, np.roll(edges, -1), strict=True):
-            end = int(b) + (360 if b <= a else 0)
-            cv2.ellipse(image, centre, (radius, radius), 0, int(a), end, pick(rng, VIVID), -1)
+            last = int(b) + (360 if b <= a else 0)
+            cv2.ellipse(image, centre, (radius, radius), 0, int(a), last, pick(rng, VIVID), -1)
 
 
 def photo(rng: Generator, height: int, width: int) -> Image:

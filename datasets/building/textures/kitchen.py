@@ -19,7 +19,7 @@ from datasets.building.textures.patterns import (
 
 
 def cupboard(face: Image, handle: int, panel: bool) -> Image:
-    """A cupboard's door: a face with a bevelled panel and a handle (0 bar, 1 knob, 2 across)."""
+    """Draw a cupboard's door: its panel and its handle (0 bar, 1 knob, 2 across)."""
     image = face.copy()
     height, width = image.shape[:2]
     cv2.rectangle(image, (1, 1), (width - 2, height - 2), (70, 60, 50), 2)
@@ -44,7 +44,7 @@ def cupboard(face: Image, handle: int, panel: bool) -> Image:
 
 
 def drawers(face: Image, count: int) -> Image:
-    """A stack of drawers with bar handles."""
+    """Draw a stack of drawers with bar handles."""
     image = face.copy()
     height, width = image.shape[:2]
     for i in range(count):
@@ -57,7 +57,7 @@ def drawers(face: Image, count: int) -> Image:
 
 
 def hob(rng: Generator, height: int, width: int) -> Image:
-    """A hob from above with four plates, and perhaps pans on it."""
+    """Draw a hob from above with four plates, and perhaps pans on it."""
     image = plain(height, width, (30, 30, 33))
     cv2.rectangle(image, (3, 3), (width - 4, height - 4), (150, 152, 156), 2)
     for x in (0.28, 0.72):
@@ -75,7 +75,7 @@ def hob(rng: Generator, height: int, width: int) -> Image:
 
 
 def oven(rng: Generator, height: int, width: int) -> Image:
-    """An oven's front: knobs, a clock, a window with a grill."""
+    """Draw an oven's front: knobs, a clock, a window with a grill."""
     image = steel(rng, height, width)
     for i in range(5):
         centre = int((0.12 + 0.19 * i) * width), int(0.10 * height)
@@ -97,7 +97,7 @@ def oven(rng: Generator, height: int, width: int) -> Image:
 
 
 def fridge(rng: Generator, height: int, width: int) -> Image:
-    """A fridge's front with magnets, notes, photographs and a handle."""
+    """Draw a fridge's front with magnets, notes, photographs and a handle."""
     white = pick(rng, ((236, 236, 232), (226, 222, 205), (186, 206, 200)))
     image = tint(white, 0.05 * noise(rng, height, width, (80, 40)))
     split = int(height * rng.uniform(0.28, 0.4))
@@ -117,7 +117,7 @@ def fridge(rng: Generator, height: int, width: int) -> Image:
 
 
 def crockery(rng: Generator, height: int, width: int) -> Image:
-    """An open shelf with cups, plates, glasses, jars and packets."""
+    """Draw an open shelf with cups, plates, glasses, jars and packets."""
     image = plain(height, width, pick(rng, ((206, 196, 178), (182, 168, 146))))
     x = 4
     while x < width - 44:
@@ -159,7 +159,7 @@ FOOD: tuple[Colour, ...] = (
 
 
 def packet(rng: Generator, height: int, width: int) -> Image:
-    """A packet of food: colour, name, picture."""
+    """Draw a packet of food: colour, name, picture."""
     image = plain(height, width, pick(rng, VIVID))
     write(image, word(rng), (2, 3, width - 2, height // 3), (250, 248, 240))
     centre = width // 2, 2 * height // 3
@@ -169,7 +169,7 @@ def packet(rng: Generator, height: int, width: int) -> Image:
 
 
 def sink(rng: Generator, height: int, width: int) -> Image:
-    """A steel sink from above, with bowl and draining board."""
+    """Draw a steel sink from above, with bowl and draining board."""
     image = steel(rng, height, width)
     cv2.rectangle(
         image, (width // 14, height // 6), (width // 2, 5 * height // 6), (96, 100, 104), -1
@@ -181,7 +181,7 @@ def sink(rng: Generator, height: int, width: int) -> Image:
 
 
 def tablecloth(rng: Generator, side: int) -> Image:
-    """A checked tablecloth laid with plates and cups."""
+    """Draw a checked tablecloth laid with plates and cups."""
     colour = pick(rng, ((190, 50, 48), (50, 90, 160), (60, 130, 80), (200, 150, 50)))
     image = plain(side, side, (240, 236, 226))
     step = side // 14
@@ -200,7 +200,7 @@ def tablecloth(rng: Generator, side: int) -> Image:
 
 
 def clock(side: int) -> Image:
-    """A wall clock on a square of wall."""
+    """Draw a wall clock on a square of wall."""
     image = plain(side, side, (228, 224, 214))
     middle = side // 2
     cv2.circle(image, (middle, middle), middle - 3, (250, 250, 250), -1, cv2.LINE_AA)

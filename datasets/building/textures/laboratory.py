@@ -10,14 +10,20 @@ from datasets.building.textures.ink import VIVID, lines, word, write
 from datasets.building.textures.patterns import Colour, Generator, pick, plain, shift
 
 ELEMENTS = (
-    "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se "
-    "Br Kr Rb Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Hf Ta W Re Os Ir Pt Au Hg"
-).split()
+    "H", "He", "Li", "Be", "B", "C", "N", "O", "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S",
+    "Cl", "Ar", "K", "Ca", "Sc", "Ti", "V", "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Ga",
+    "Ge", "As", "Se", "Br", "Kr", "Rb", "Sr", "Y", "Zr", "Nb", "Mo", "Tc", "Ru", "Rh", "Pd",
+    "Ag", "Cd", "In", "Sn", "Sb", "Te", "I", "Xe", "Cs", "Ba", "La", "Hf", "Ta", "W", "Re",
+    "Os", "Ir", "Pt", "Au", "Hg",
+)  # fmt: skip
+LIQUIDS: tuple[Colour, ...] = (
+    (60, 150, 210), (210, 170, 50), (180, 70, 60), (90, 170, 90), (150, 100, 180),
+)  # fmt: skip
 CASES: tuple[Colour, ...] = ((196, 200, 196), (214, 206, 184), (70, 84, 96), (150, 170, 176))
 
 
 def instrument(rng: Generator, height: int, width: int) -> Image:
-    """An instrument's front: a scope screen or a meter, knobs, sockets, lamps, lettering."""
+    """Draw an instrument's front: a scope screen or a meter, knobs, sockets, lamps, lettering."""
     case = pick(rng, CASES)
     ink: Colour = (240, 240, 240) if sum(case) < 380 else (40, 40, 44)
     image = plain(height, width, case)
@@ -98,7 +104,7 @@ def _control(rng: Generator, image: Image, at: tuple[int, int], size: int, ink: 
 
 
 def rack(rng: Generator, height: int, width: int) -> Image:
-    """A rack of modules: rails, screws, slots, lamps and cables."""
+    """Draw a rack of modules: rails, screws, slots, lamps and cables."""
     image = plain(height, width, (38, 40, 44))
     y = 6
     while y < height - 20:
@@ -125,51 +131,45 @@ def rack(rng: Generator, height: int, width: int) -> Image:
 
 
 def glassware(rng: Generator, height: int, width: int) -> Image:
-    """A shelf of labelled bottles, flasks and beakers with coloured liquids."""
+    """Draw a shelf of labelled bottles and of flasks with coloured liquids."""
     image = plain(height, width, (190, 198, 200))
-    x, base = 6, height - 4
-    liquids: tuple[Colour, ...] = (
-        (60, 150, 210),
-        (210, 170, 50),
-        (180, 70, 60),
-        (90, 170, 90),
-        (150, 100, 180),
-    )
+    x = 6
     while x < width - 40:
         wide, tall = int(rng.integers(22, 40)), int(rng.uniform(0.5, 0.9) * height)
-        top, liquid = base - tall, pick(rng, liquids)
-        if rng.random() < 0.5:
-            body = pick(rng, ((96, 56, 24), (226, 230, 230), (40, 80, 60)))
-            cv2.rectangle(image, (x, top + tall // 4), (x + wide, base), body, -1)
-            cv2.rectangle(
-                image, (x + wide // 3, top), (x + 2 * wide // 3, top + tall // 4), (30, 30, 34), -1
-            )
-            cv2.rectangle(
-                image, (x + 2, top + tall // 2), (x + wide - 2, base - 6), (246, 244, 236), -1
-            )
-            cv2.rectangle(
-                image,
-                (x + 4, top + tall // 2 + 3),
-                (x + 13, top + tall // 2 + 12),
-                (230, 120, 30),
-                -1,
-            )
-            lines(rng, image, (x + 4, top + tall // 2 + 15, x + wide - 4, base - 7), 5)
-        else:
-            flask = [(x + wide // 3, top), (x + 2 * wide // 3, top), (x + 2 * wide // 3, top + tall // 3),
-                     (x + wide, base), (x, base), (x + wide // 3, top + tall // 3)]  # fmt: skip
-            outline = np.array(flask, dtype=np.int32)
-            cv2.fillPoly(image, [outline], (222, 232, 236), cv2.LINE_AA)
-            cv2.rectangle(image, (x + 4, base - tall // 3), (x + wide - 4, base - 2), liquid, -1)
-            cv2.polylines(image, [outline], True, (90, 104, 112), 2, cv2.LINE_AA)
-            for y in range(top + tall // 2, base - 4, 7):
-                cv2.line(image, (x + wide // 2, y), (x + wide // 2 + 7, y), (50, 60, 66), 1)
+        draw = _bottle if rng.random() < 0.5 else _flask
+        draw(rng, image, (x, height - 4 - tall, x + wide, height - 4))
         x += wide + 5
     return image
 
 
+def _bottle(rng: Generator, image: Image, box: tuple[int, int, int, int]) -> None:
+    left, top, right, bottom = box
+    shoulder, label = top + (bottom - top) // 4, (top + bottom) // 2
+    third = (right - left) // 3
+    body = pick(rng, ((96, 56, 24), (226, 230, 230), (40, 80, 60)))
+    cv2.rectangle(image, (left, shoulder), (right, bottom), body, -1)
+    cv2.rectangle(image, (left + third, top), (right - third, shoulder), (30, 30, 34), -1)
+    cv2.rectangle(image, (left + 2, label), (right - 2, bottom - 6), (246, 244, 236), -1)
+    cv2.rectangle(image, (left + 4, label + 3), (left + 13, label + 12), (230, 120, 30), -1)
+    lines(rng, image, (left + 4, label + 15, right - 4, bottom - 7), 5)
+
+
+def _flask(rng: Generator, image: Image, box: tuple[int, int, int, int]) -> None:
+    left, top, right, bottom = box
+    neck, a, b = top + (bottom - top) // 3, (2 * left + right) // 3, (left + 2 * right) // 3
+    corners = [(a, top), (b, top), (b, neck), (right, bottom), (left, bottom), (a, neck)]
+    outline = np.array(corners, dtype=np.int32)
+    level = bottom - (bottom - top) // 3
+    cv2.fillPoly(image, [outline], (222, 232, 236), cv2.LINE_AA)
+    cv2.rectangle(image, (left + 4, level), (right - 4, bottom - 2), pick(rng, LIQUIDS), -1)
+    cv2.polylines(image, [outline], True, (90, 104, 112), 2, cv2.LINE_AA)
+    middle = (left + right) // 2
+    for y in range((top + bottom) // 2, bottom - 4, 7):
+        cv2.line(image, (middle, y), (middle + 7, y), (50, 60, 66), 1)
+
+
 def periodic_table(rng: Generator, height: int, width: int) -> Image:
-    """The periodic table as a poster."""
+    """Draw the periodic table as a poster."""
     image = plain(height, width, pick(rng, ((244, 244, 240), (30, 40, 70), (226, 234, 238))))
     title: Colour = (40, 40, 50) if image[0, 0].sum() > 380 else (244, 244, 240)
     write(
@@ -195,7 +195,7 @@ def periodic_table(rng: Generator, height: int, width: int) -> Image:
 
 
 def warning(rng: Generator, side: int) -> Image:
-    """A warning sign: black on a yellow triangle, with a line of text."""
+    """Draw a warning sign: black on a yellow triangle, with a line of text."""
     image = plain(side, side, (246, 244, 238))
     triangle = np.array([(side // 2, 5), (side - 6, int(0.78 * side)), (6, int(0.78 * side))])
     cv2.fillPoly(image, [triangle.astype(np.int32)], (248, 204, 20), cv2.LINE_AA)
@@ -221,7 +221,7 @@ def warning(rng: Generator, side: int) -> Image:
 
 
 def pegboard(rng: Generator, height: int, width: int) -> Image:
-    """A perforated board with tools, clamps and coils of cable hanging on it."""
+    """Draw a perforated board with tools, clamps and coils of cable hanging on it."""
     image = plain(height, width, pick(rng, ((206, 196, 170), (150, 158, 164))))
     for y in range(6, height, 13):
         for x in range(6, width, 13):

@@ -11,7 +11,7 @@ from datasets.building.textures.patterns import Colour, Generator, pick, plain, 
 
 
 def books(rng: Generator, height: int, width: int, taste: tuple[Colour, ...]) -> Image:
-    """A shelf's load of book spines and file binders."""
+    """Draw a shelf's load of book spines and file binders."""
     image = plain(height, width, (34, 28, 24))
     x = int(rng.integers(0, 12))
     while x < width - 8:
@@ -31,8 +31,8 @@ def books(rng: Generator, height: int, width: int, taste: tuple[Colour, ...]) ->
 
 
 def _spine(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    across = np.sin(np.linspace(0.25, 2.9, width, dtype=np.float32))[None] - 0.9
-    spine = tint(colour, 0.35 * np.repeat(across, height, axis=0))
+    across = 0.35 * (np.sin(np.linspace(0.25, 2.9, width)) - 0.9)
+    spine = tint(colour, np.repeat(across[None].astype(np.float32), height, axis=0))
     ink: Colour = (244, 232, 196) if sum(colour) < 400 else (30, 30, 40)
     for y in rng.integers(4, max(6, height // 5), 2):
         cv2.line(spine, (0, int(y)), (width, int(y)), ink, 1)
@@ -61,10 +61,10 @@ def _binders(rng: Generator, image: Image, x: int, height: int) -> int:
 
 
 def screen(rng: Generator, height: int, width: int) -> Image:
-    """A monitor: dark rim, desktop, windows with text and charts."""
+    """Draw a monitor: dark rim, desktop, windows with text and charts."""
     image = plain(height, width, (26, 27, 30))
     inner = image[5 : height - 9, 5 : width - 5]
-    inner[:] = tint(pick(rng, ((40, 80, 130), (30, 110, 110), (70, 60, 110))), 0 * inner[..., 0])
+    inner[:] = pick(rng, ((40, 80, 130), (30, 110, 110), (70, 60, 110)))
     for _ in range(int(rng.integers(2, 4))):
         left, top = int(rng.uniform(0, 0.4) * width), int(rng.uniform(0, 0.35) * height)
         right = min(left + int(rng.uniform(0.45, 0.8) * width), inner.shape[1] - 2)
@@ -83,7 +83,7 @@ def screen(rng: Generator, height: int, width: int) -> Image:
 
 
 def keyboard(rng: Generator, height: int, width: int) -> Image:
-    """A keyboard from above."""
+    """Draw a keyboard from above."""
     dark = rng.random() < 0.7
     image = plain(height, width, (28, 28, 30) if dark else (200, 200, 196))
     key: Colour = (64, 64, 68) if dark else (236, 236, 230)
@@ -98,7 +98,7 @@ def keyboard(rng: Generator, height: int, width: int) -> Image:
 
 
 def desk_top(rng: Generator, wood: Image) -> Image:
-    """A desk from above: papers, keyboard, mouse, mug, notes."""
+    """Draw a desk from above: papers, keyboard, mouse, mug, notes."""
     image = wood.copy()
     height, width = image.shape[:2]
     for _ in range(int(rng.integers(4, 8))):
@@ -126,7 +126,7 @@ def _lay(rng: Generator, image: Image, paper: Image, degrees: float) -> None:
 
 
 def whiteboard(rng: Generator, height: int, width: int) -> Image:
-    """A whiteboard with sketches, writing and magnets."""
+    """Draw a whiteboard with sketches, writing and magnets."""
     image = plain(height, width, (240, 242, 242))
     pens: tuple[Colour, ...] = ((30, 50, 150), (170, 30, 40), (20, 110, 60), (30, 30, 30))
     for _ in range(int(rng.integers(4, 8))):
@@ -148,7 +148,7 @@ def whiteboard(rng: Generator, height: int, width: int) -> Image:
 
 
 def pinboard(rng: Generator, height: int, width: int) -> Image:
-    """A cork board with notes, photographs and leaflets."""
+    """Draw a cork board with notes, photographs and leaflets."""
     image = tint((176, 132, 84), 0.5 * (rng.random((height, width), dtype=np.float32) - 0.5))
     for _ in range(int(rng.integers(9, 15))):
         note = sheet(rng, int(rng.uniform(0.2, 0.4) * height), int(rng.uniform(0.1, 0.2) * width))

@@ -70,7 +70,7 @@ def wood(rng: Generator, height: int, width: int, colour: Colour, contrast: floa
 
 
 def planks(rng: Generator, height: int, width: int, colour: Colour, plank: int) -> Image:
-    """A wooden floor of planks along the width."""
+    """Draw a wooden floor of planks along the width."""
     image = wood(rng, height, width, colour)
     for top in range(0, height, plank):
         start = -int(rng.integers(width // 2))
@@ -85,7 +85,7 @@ def planks(rng: Generator, height: int, width: int, colour: Colour, plank: int) 
 
 
 def carpet(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    """A carpet of loops in squares with their pile laid this way and that."""
+    """Draw a carpet of loops in squares with their pile laid this way and that."""
     value = 0.35 * noise(rng, height, width, (3, 3)) + 0.25 * noise(rng, height, width, (7, 7))
     side = width // 2
     for top in range(0, height, side):
@@ -113,7 +113,8 @@ def tiles(
     """Tiles of `side` (height, width) pixels; a share `pattern` of them carries an ornament."""
     height, width = shape
     image = plain(height, width, grout)
-    ornament = rng.integers(0, 3), pick(rng, colours, 60), pick(rng, ((60, 90, 140), (150, 80, 50)))
+    kind, light = int(rng.integers(0, 3)), pick(rng, colours, 60)
+    dark = pick(rng, ((60, 90, 140), (150, 80, 50)))
     for top in range(0, height, side[0]):
         for left in range(0, width, side[1]):
             bottom, right = min(top + side[0], height) - 1, min(left + side[1], width) - 1
@@ -123,7 +124,7 @@ def tiles(
             face = tint(colour, 0.08 * noise(rng, bottom - top, right - left, (12, 12)))
             image[top + 1 : bottom + 1, left + 1 : right + 1] = face
             if rng.random() < pattern:
-                _ornament(image, (left, top, right, bottom), *ornament)
+                _ornament(image, (left, top, right, bottom), kind, light, dark)
     return image
 
 

@@ -14,7 +14,7 @@ SIGN_GREEN: Colour = (20, 130, 80)
 
 
 def door(rng: Generator, face: Image, number: int) -> Image:
-    """A closed door: leaf in a frame, handle, plate with a number, keyhole, kick plate."""
+    """Draw a closed door: leaf in a frame, handle, plate with a number, keyhole, kick plate."""
     image = face.copy()
     height, width = image.shape[:2]
     cv2.rectangle(image, (2, 2), (width - 3, height), (70, 62, 54), 4)
@@ -41,7 +41,7 @@ def door(rng: Generator, face: Image, number: int) -> Image:
 
 
 def exit_sign(height: int, width: int, to_left: bool) -> Image:
-    """The green sign of an emergency exit."""
+    """Draw the green sign of an emergency exit."""
     image = plain(height, width, SIGN_GREEN)
     person(image, (width // 4, height // 2), height // 4, (250, 250, 250))
     tail, tip = (width // 2, height // 2), (int(0.92 * width), height // 2)
@@ -52,7 +52,7 @@ def exit_sign(height: int, width: int, to_left: bool) -> Image:
 
 
 def room_plate(rng: Generator, height: int, width: int, title: str) -> Image:
-    """The plate beside a room's door: number, name, lines."""
+    """Draw the plate beside a room's door: number, name, lines."""
     image = plain(height, width, (236, 238, 240))
     cv2.rectangle(
         image,
@@ -71,7 +71,7 @@ def room_plate(rng: Generator, height: int, width: int, title: str) -> Image:
 
 
 def radiator(height: int, width: int) -> Image:
-    """A radiator's front: upright ribs between two rails."""
+    """Draw a radiator's front: upright ribs between two rails."""
     ribs = 0.22 * np.sin(np.arange(width, dtype=np.float32) * (6.28 / 13))
     image = tint((216, 214, 206), np.repeat(ribs[None], height, axis=0))
     for y in (0, height - 12):
@@ -81,7 +81,7 @@ def radiator(height: int, width: int) -> Image:
 
 
 def evacuation_plan(rng: Generator, height: int, width: int) -> Image:
-    """A floor plan with walls, a route in green, symbols and a legend."""
+    """Draw a floor plan with walls, a route in green, symbols and a legend."""
     image = plain(height, width, (248, 248, 244))
     cv2.rectangle(
         image,
@@ -124,7 +124,7 @@ def elevator_door(rng: Generator, height: int, width: int) -> Image:
 
 
 def call_buttons(rng: Generator, height: int, width: int) -> Image:
-    """The elevators' call buttons with arrows, keyhole and a small display."""
+    """Draw the elevators' call buttons with arrows, keyhole and a small display."""
     image = steel(rng, height, width, (150, 154, 160))
     cv2.rectangle(image, (1, 1), (width - 2, height - 2), (60, 62, 66), 3)
     cv2.rectangle(
@@ -148,7 +148,7 @@ def call_buttons(rng: Generator, height: int, width: int) -> Image:
 
 
 def floor_number(rng: Generator, height: int, width: int, floor: int) -> Image:
-    """A large number of the floor with the firms on it."""
+    """Draw a large number of the floor with the firms on it."""
     colour = pick(rng, ((30, 60, 110), (120, 40, 40), (40, 90, 70), (60, 60, 66)))
     image = plain(height, width, colour)
     write(
@@ -183,7 +183,7 @@ def leaves(rng: Generator, height: int, width: int) -> Image:
 
 
 def outside(rng: Generator, height: int, width: int) -> Image:
-    """What is seen through a window, with the window's frame: sky, houses, trees."""
+    """Draw what is seen through a window, with the window's frame: sky, houses, trees."""
     down = np.linspace(-0.12, 0.12, height, dtype=np.float32)[:, None]
     image = tint((190, 214, 236), down + 0.10 * noise(rng, height, width, (30, 70)))
     x = 0
