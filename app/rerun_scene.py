@@ -209,7 +209,8 @@ def _log_plan(
         [(ids[edge.source], ids[edge.target]) for edge in graph.edges], graph_type="undirected"
     )
     names = rr.GraphNodes(
-        list(spots), positions=plan[np.array(list(spots.values()), dtype=np.intp)], labels=list(spots), show_labels=True,
+        list(spots), positions=plan[np.array(list(spots.values()), dtype=np.intp)],
+        labels=list(spots), show_labels=True,
         colors=[_readable(_colour(graph, i)) for i in spots.values()],
     )  # fmt: skip
     recording.log("graph/nodes", nodes, edges)
