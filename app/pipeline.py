@@ -20,12 +20,12 @@ from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
 from semantics.labeller import FrameLabel, PlaceLabeller
-from semantics.labels import LabelSpace
+from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
 from semantics.topology import TopologicalMap
 from slam.map import PointMap
 from slam.slam import Slam
-from slam.tracking import Tracking
+from slam.tracking import Tracking, TrackingState
 from slam.view import View
 
 logger = logging.getLogger(__name__)
@@ -100,15 +100,7 @@ class Pipeline:
 
     def _track(self, view: View) -> Tracking:
         with self.clock.stage("track"):
-            tracking = self.slam.process(view)
-        for closure in tracking.closures:
-            self.viewer.log(
-                tracking.index,
-                f"loop closed with keyframe {closure.matched_keyframe} ({closure.inliers} matches)",
-            )
-        if not tracking.state.has_pose:
-            self.viewer.log(tracking.index, f"frame {tracking.index} {tracking.state.value}")
-        return tracking
+            return self.slam.process(view)
 
     def _label(self, tracking: Tracking) -> None:
         with self.clock.stage("label"):
@@ -131,18 +123,25 @@ class Pipeline:
         graph = self.topology.snapshot(self.slam.keyframe_poses)
         self.viewer.show_graph(frame, graph)
         places = [node.place for node in graph.nodes[-2:]]
-        if len(places) == 1 or places[0] != places[1]:
+        if places[-1] != UNKNOWN and (len(places) == 1 or places[0] != places[1]):
             logger.info("frame %d: entering %s", frame, places[-1])
             self.viewer.log(frame, f"entering {places[-1]}")
 
     def _show(self, view: View, tracking: Tracking) -> None:
         with self.clock.stage("view"):
             self.viewer.show_frame(view.frame, tracking)
-            due = self._drawn_keyframes + self.settings.recording.map_every
-            if len(self.slam.keyframes) >= due or tracking.closures:
+            for event in _events(tracking):
+                self.viewer.log(tracking.index, event)
+            if self._is_map_due(tracking):
                 self._drawn_keyframes = len(self.slam.keyframes)
-                self.viewer.show_map(tracking.index, self._map_view(self.slam.build_map()))
+                self.viewer.show_map(tracking.index, lambda: self._map_view(self.slam.sketch_map()))
         self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
+
+    def _is_map_due(self, tracking: Tracking) -> bool:
+        """Whether the map has grown enough, or a loop has bent it, since it was last shown."""
+        due = self._drawn_keyframes + self.settings.recording.map_every
+        drawn = self._drawn_keyframes
+        return drawn == 0 or len(self.slam.keyframes) >= due or bool(tracking.closures)
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:
@@ -168,7 +167,7 @@ class Pipeline:
             if len(points):
                 self.recorder.write_map(points, view.label_ids, self.labels)
             last = max(0, len(self._labelled) - 1)
-            self.viewer.show_map(last, view)
+            self.viewer.show_map(last, lambda: view)
             self.viewer.show_graph(last, graph)
             self.viewer.close()
         metrics = run_metrics(
@@ -224,3 +223,14 @@ class Pipeline:
     def _state(self, tracking: Tracking) -> str:
         place = self._labelled[-1].label if self._labelled else "unknown"
         return f"{tracking.state.value}, {place}, {len(self.slam.keyframes)} keyframes"
+
+
+def _events(tracking: Tracking) -> list[str]:
+    """Return what is worth telling of a frame."""
+    events = [
+        f"loop closed with keyframe {closure.matched_keyframe} ({closure.inliers} matches)"
+        for closure in tracking.closures
+    ]
+    if tracking.state is not TrackingState.OK:
+        events.append(f"frame {tracking.index} {tracking.state.value}")
+    return events

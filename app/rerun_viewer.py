@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -101,8 +102,9 @@ class RerunViewer:
         self._say("timeline/label", label)
         self._label = f"{label.replace('_', ' ')} · {score:.2f}"
 
-    def show_map(self, frame: int, view: MapView) -> None:
+    def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
         """Show the map as it is at a frame; takes the place of the one before."""
+        view = draw()
         self._map = (frame, view)
         self._recent.clear()
         self._at(frame)

@@ -45,7 +45,7 @@ def map_sequence(
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(f"[dim]{note}")
-        viewer = _viewer(sequence.name, folder, settings, showing)
+        viewer = _viewer(folder, settings, showing)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(sequence, settings, model, Recorder(folder), viewer, advance)
             metrics = pipeline.run()
@@ -62,10 +62,10 @@ def _with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSet
     return settings.model_copy(update={"slam": slam})
 
 
-def _viewer(name: str, folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewer:
+def _viewer(folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewer:
     if not showing.live and not showing.save:
         return NoViewer()
     from app.rerun_viewer import RerunViewer
 
     save = folder.recording if showing.save else None
-    return RerunViewer(name, save, showing.live, settings.viewer)
+    return RerunViewer(save, showing.live, settings.viewer)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -86,8 +87,11 @@ class Viewer(Protocol):
         """Show a frame's label, which is known a few frames after the frame."""
         ...
 
-    def show_map(self, frame: int, view: MapView) -> None:
-        """Show the map as it is at a frame; takes the place of the one before."""
+    def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
+        """Show the map as it is at a frame; takes the place of the one before.
+
+        `draw` makes it, so that a viewer without need of it costs nothing.
+        """
         ...
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
@@ -115,7 +119,7 @@ class NoViewer:
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
         """Do nothing."""
 
-    def show_map(self, frame: int, view: MapView) -> None:
+    def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
         """Do nothing."""
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:

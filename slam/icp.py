@@ -98,9 +98,7 @@ def align_planes(
         if step_number == settings.iterations:
             break
         moved = poses.logarithm(T @ poses.inverse(T_target_source))
-        step: Any = np.linalg.solve(
-            H + prior_information, gradient + prior_information @ moved
-        )
+        step: Any = np.linalg.solve(H + prior_information, gradient + prior_information @ moved)
         T = poses.exponential(-step) @ T
         if np.abs(step).max() < 1e-5:
             break

@@ -48,17 +48,20 @@ def build_map(
     keyframes: Iterable[Keyframe],
     T_world_keyframe: Mapping[int, NDArray[np.float64]],
     voxel_m: float,
+    every: int = 1,
 ) -> PointMap:
     """Fuse keyframes' clouds at their present poses: the mean point and colour of each voxel.
 
     Nothing is kept between calls, so after a loop closure the map is simply built again.
+    `every` thins the clouds beforehand.
     """
     points, colours, owners, depths = [], [], [], []
     for keyframe in keyframes:
-        points.append(poses.transform(T_world_keyframe[keyframe.id], keyframe.cloud))
-        colours.append(keyframe.colours)
-        owners.append(np.full(len(keyframe.cloud), keyframe.id, dtype=np.int32))
-        depths.append(keyframe.cloud[:, 2])
+        cloud = keyframe.cloud[::every]
+        points.append(poses.transform(T_world_keyframe[keyframe.id], cloud))
+        colours.append(keyframe.colours[::every])
+        owners.append(np.full(len(cloud), keyframe.id, dtype=np.int32))
+        depths.append(cloud[:, 2])
     if not points or not sum(map(len, points)):
         empty = np.empty((0, 3))
         return PointMap(empty.astype(np.float32), empty.astype(np.uint8), np.empty(0, np.int32))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,11 +53,11 @@ def match(
 
 
 def squared_distances(rows: NDArray[Any], columns: NDArray[Any]) -> NDArray[np.float32]:
-    """Return squared Euclidean (or, for uint8, Hamming) distances (N, M) of descriptors."""
+    """Return squared Euclidean (or, for uint8, squared Hamming) distances (N, M)."""
     if rows.dtype == np.uint8:
-        return np.asarray(cv2.batchDistance(
-            rows, columns, cv2.CV_32S, normType=cv2.NORM_HAMMING
-        )[0], dtype=np.float32) ** 2  # fmt: skip
+        bits = [np.unpackbits(side, axis=1).astype(np.float32) for side in (rows, columns)]
+        # Of bit vectors, the squared Euclidean distance is the Hamming distance.
+        return squared_distances(*bits) ** 2
     product = rows @ columns.T
     product *= -2
     product += np.einsum("nd,nd->n", rows, rows)[:, None]

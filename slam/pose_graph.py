@@ -125,6 +125,13 @@ class PoseGraph:
         SlamError
             A keyframe hangs on no link, so its pose is undetermined.
         """
+        linked = {key for link in self.links for key in (link.first, link.second)}
+        loose = sorted(set(list(self._poses)[1:]) - linked)
+        if loose:
+            raise SlamError(
+                "pose graph cannot be solved", where=f"keyframe {loose[0]}",
+                expected="a link to every keyframe",
+            )  # fmt: skip
         try:
             self._isam.update(self._new_factors, self._new_values)
             if any(link.is_loop for link in self.links[-8:]):

@@ -120,6 +120,12 @@ class Slam:
         """Fuse all keyframes' points at their present poses."""
         return build_map(self.keyframes.values(), self.keyframe_poses, self.settings.map.voxel_m)
 
+    def sketch_map(self) -> PointMap:
+        """Fuse an eighth of the points, coarsely: a map to look at while the run goes on."""
+        return build_map(
+            self.keyframes.values(), self.keyframe_poses, 2.5 * self.settings.map.voxel_m, every=8
+        )
+
     def _begin(self, view: View) -> Tracking:
         keyframe = self.mapper.start(view, np.eye(4))
         self._around = self.mapper.around(keyframe)

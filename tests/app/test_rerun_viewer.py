@@ -118,10 +118,10 @@ def record(path: Path, settings: ViewerSettings | None = None) -> None:
         if i >= 2:
             viewer.show_label(i - 2, 1 + i // 8, LABELS.names[1 + i // 8], 0.5 + i / 100)
         if i in (0, 9):
-            viewer.show_map(i, map_of(i + 1))
+            viewer.show_map(i, lambda i=i: map_of(i + 1))
         if i % 3 == 0:
             viewer.show_graph(i, graph_of(i // 3 + 1))
-    viewer.show_map(N_FRAMES - 1, map_of(N_FRAMES))
+    viewer.show_map(N_FRAMES - 1, lambda: map_of(N_FRAMES))
     viewer.close()
 
 
@@ -256,7 +256,7 @@ def test_a_run_without_a_single_pose_can_be_closed(tmp_path: Path) -> None:
     ends = np.empty((0, 2, 3))
     empty = MapView(points, np.empty(0, np.uint16), nothing, ends, ends, nothing)
     viewer.show_frame(frame_of(LOST), tracking_of(LOST))
-    viewer.show_map(0, empty)
+    viewer.show_map(0, lambda: empty)
     viewer.show_graph(0, SemanticGraph(LabelSpace(), (), ()))
     viewer.close()
     assert "/status" in Recorded.read(tmp_path / "empty.rrd").rows

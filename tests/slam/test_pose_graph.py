@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+
+from datasets import poses
+from slam.errors import SlamError
+from slam.pose_graph import Link, PoseGraph, PoseGraphSettings
+
+from .helpers import motion_error
+
+
+def _ring(count=12, radius=2.0):
+    """Poses on a circle, looking outwards."""
+    T = []
+    for angle in 2 * np.pi * np.arange(count) / count:
+        turn = poses.exponential(np.array([0, angle, 0, 0, 0, 0]))
+        T.append(turn @ poses.pose(t=(0, 0, radius)))
+    return np.array(T)
+
+
+def _link(ring, i, j, is_loop=False, error=None):
+    T = poses.inverse(ring[i]) @ ring[j]
+    if error is not None:
+        T = T @ poses.exponential(error)
+    return Link(i, j, T, 1e4 * np.eye(6), is_loop)
+
+
+def _graph(ring, noise, rng, **settings):
+    """Chain the ring's poses by noisy links, each placed by the link before."""
+    graph = PoseGraph(PoseGraphSettings(**settings))
+    graph.add_keyframe(0, ring[0])
+    for i in range(1, len(ring)):
+        link = _link(ring, i - 1, i, error=noise * rng.normal(size=6))
+        graph.add_keyframe(i, graph[i - 1] @ link.T_first_second)
+        graph.add_link(link)
+        graph.optimise()
+    return graph
+
+
+def test_ring_closes_on_its_known_optimum(rng):
+    ring = _ring()
+    graph = _graph(ring, 0.02, rng)
+    before = motion_error(graph[len(ring) - 1], ring[-1])[0]
+    graph.add_link(_link(ring, len(ring) - 1, 0, is_loop=True))
+    graph.optimise()
+    after = motion_error(graph[len(ring) - 1], ring[-1])[0]
+    assert after < 0.3 * before
+    assert np.allclose(graph[0], ring[0], atol=1e-5)
+
+
+def test_ring_without_noise_stays(rng):
+    ring = _ring()
+    graph = _graph(ring, 0.0, rng)
+    graph.add_link(_link(ring, len(ring) - 1, 0, is_loop=True))
+    graph.optimise()
+    assert all(np.allclose(graph[i], ring[i], atol=1e-6) for i in range(len(ring)))
+
+
+def test_robust_kernel_keeps_a_wrong_loop_from_bending_the_ring(rng):
+    ring = _ring()
+    errors = {}
+    for kernel in ("none", "cauchy"):
+        graph = _graph(ring, 0.002, np.random.default_rng(1), kernel=kernel)
+        for i in range(len(ring) - 2):
+            graph.add_link(_link(ring, i, i + 2))
+        wrong = _link(ring, 1, 7, is_loop=True, error=np.array([0, 1.0, 0, 0.5, 0, 0.5]))
+        graph.add_link(wrong)
+        graph.optimise()
+        errors[kernel] = max(motion_error(graph[i], ring[i])[0] for i in range(len(ring)))
+    assert errors["cauchy"] < 0.25 * errors["none"]
+    assert errors["cauchy"] < 0.1
+
+
+def test_g2o_is_read_back_with_several_poses(tmp_path, rng):
+    import gtsam
+
+    ring = _ring()
+    graph = _graph(ring, 0.01, rng)
+    graph.write_g2o(tmp_path / "graph.g2o")
+    factors, values = gtsam.readG2o(str(tmp_path / "graph.g2o"), True)
+    assert factors.size() == len(ring) - 1
+    for key in range(len(ring)):
+        assert np.allclose(values.atPose3(key).matrix(), graph[key], atol=1e-4)
+
+
+def test_misuse_is_said(rng):
+    graph = PoseGraph(PoseGraphSettings())
+    graph.add_keyframe(0, np.eye(4))
+    with pytest.raises(SlamError, match="already"):
+        graph.add_keyframe(0, np.eye(4))
+    with pytest.raises(SlamError, match="keyframe 5"):
+        graph.add_link(Link(0, 5, np.eye(4), np.eye(6), False))
+    graph.add_keyframe(1, np.eye(4))
+    with pytest.raises(SlamError, match="link to every keyframe"):
+        graph.optimise()
