@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
+
+import numpy as np
 
 from datasets.building.layout import CEILING_M, FloorPlan
 from datasets.building.mesh import Image, Material, Stand
@@ -42,6 +45,7 @@ def furnish(site: Site, plan: FloorPlan) -> None:
     face = patterns.wood(
         site.rng, 520, 240, patterns.pick(site.rng, ((150, 104, 64), (176, 136, 92)))
     )
+    deck = _deck(site.rng)
     for name in site.walls:
         wall = site.walls[name]
         side = _side(site, wall.stand)
@@ -53,7 +57,7 @@ def furnish(site: Site, plan: FloorPlan) -> None:
         _plates(site, wall.stand, side, plan)
         edges = [(0.0, 0.0, 0.0), *openings, (wall.length, wall.length, 0.0)]
         for before, after in pairwise(edges):
-            _stretch(site, wall.stand, before[1] + 0.42, after[0] - 0.18, face)
+            _stretch(site, wall.stand, (before[1] + 0.42, after[0] - 0.18), face, deck)
 
 
 def _side(site: Site, stand: Stand) -> str:
@@ -72,11 +76,19 @@ def _plates(site: Site, stand: Stand, side: str, plan: FloorPlan) -> None:
         stand.picture((end + 0.12, end + 0.36), (1.4, 1.64), 0.015, plate)
 
 
-def _stretch(site: Site, stand: Stand, start: float, end: float, face: Image) -> None:
+def _deck(rng: np.random.Generator) -> Iterator[int]:
+    """Deal the kinds of things on the walls in turn, shuffled anew after each round."""
+    while True:
+        yield from (int(kind) for kind in rng.permutation(7))
+
+
+def _stretch(
+    site: Site, stand: Stand, span: tuple[float, float], face: Image, deck: Iterator[int]
+) -> None:
     """Fill a stretch of wall; some of it stays bare."""
-    rng, x = site.rng, start
+    rng, (x, end) = site.rng, span
     while end - x > 0.35:
-        kind = int(rng.integers(7))
+        kind = next(deck)
         if kind == 0 and end - x > 1.1:
             leaf = signs.door(rng, face, int(rng.integers(100, 200)))
             stand.picture((x, x + 0.95), (0.0, 2.05), 0.02, Material(leaf))

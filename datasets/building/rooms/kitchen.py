@@ -56,7 +56,7 @@ def furnish(site: Site) -> None:
     site.window("far", far.length / 2, 1.3)
     _fridge(site, walls[other].stand.at(0.68 if other == "right" else walls[other].length - 1.42))
     start = 1.6 if other == "right" else 0.3
-    _table(site, walls[other].stand.at(start))
+    _table(site, walls[other].stand.at(start), splash)
     _beside_door(site)
 
 
@@ -95,7 +95,7 @@ def _washing_side(site: Site, stand: Stand, length: float, front: Front, splash:
     """Build base units with a sink in the middle of the worktop."""
     middle, steel = length / 2, paint((190, 194, 198))
     _base_units(site, stand, length, max(3, round(length / 0.6)), front, {})
-    stand.wall((0, length), (0.90, 0.95), 0.006, splash)
+    stand.wall((0, length), (0.90, 1.42), 0.006, splash)
     basin = Material(kitchen.sink(site.rng, 120, 230), shiny=True)
     stand.sheet((middle - 0.45, middle + 0.45), (0.06, 0.54), 0.903, basin)
     stand.prism((middle - 0.2, 0.1), (0.9, 1.15), 0.02, steel)
@@ -164,7 +164,7 @@ def _fridge(site: Site, stand: Stand) -> None:
     stand.box((0, 0.68), (0, 0.62), (0, 1.85), paint((232, 232, 228)), front=Material(image))
 
 
-def _table(site: Site, stand: Stand) -> None:
+def _table(site: Site, stand: Stand, splash: Material) -> None:
     """Place a table with two stools at the wall, a shelf with crockery and a calendar above it."""
     rng = site.rng
     wood = material(patterns.wood(rng, 200, 300, (188, 140, 90)))
@@ -176,6 +176,7 @@ def _table(site: Site, stand: Stand) -> None:
     stand.prism(
         (0.55, 0.42), (0, 0.46), 0.16, material(patterns.cloth(rng, 100, 200, (170, 60, 50)))
     )
+    stand.wall((0.0, 1.1), (0.0, 1.13), 0.006, splash)
     for z in (1.15, 1.55):
         stand.box((0.05, 1.05), (0, 0.22), (z - 0.02, z), wood)
         shelf = Material(kitchen.crockery(rng, 90, 270))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datasets.building.mesh import Material, Stand
 from datasets.building.rooms.site import SCREEN_GLOW, Site, Style, material, paint, strip
-from datasets.building.textures import ink, kitchen, laboratory, office, patterns
+from datasets.building.textures import ink, instruments, kitchen, laboratory, office, patterns
 from datasets.building.textures.patterns import Colour
 
 BENCHES: tuple[Colour, ...] = ((196, 204, 206), (150, 166, 180), (206, 200, 180))
@@ -36,12 +36,11 @@ def furnish(site: Site) -> None:
 
 def _bench(site: Site, stand: Stand, length: float, colour: Colour, *, shelf: bool) -> None:
     rng = site.rng
-    face = patterns.plaster(rng, 200, 160, colour)
-    body, top = material(face), paint((64, 68, 72))
+    body, top = paint(colour), paint((64, 68, 72))
     count = max(2, round(length / 0.62))
     for i in range(count):
         x = (i * length / count, (i + 1) * length / count)
-        front = kitchen.drawers(face, 4) if rng.random() < 0.6 else kitchen.cupboard(face, 2, False)
+        front = laboratory.bench_unit(rng, 200, 160, colour)
         stand.box(x, (0, 0.60), (0.08, 0.82), body, front=Material(front))
     stand.box((0, length), (0, 0.66), (0.82, 0.86), top)
     at = 0.08
@@ -66,9 +65,9 @@ def _on_bench(site: Site, stand: Stand, wide: float) -> float:
     rng, kind = site.rng, float(site.rng.random())
     if kind < 0.62:
         tall = float(rng.uniform(0.16, 0.26))
-        case = paint(patterns.pick(rng, laboratory.CASES))
+        case = paint(patterns.pick(rng, instruments.CASES))
         for level in range(1 if rng.random() < 0.5 else 2):
-            front = Material(laboratory.instrument(rng, int(380 * tall), int(380 * wide)))
+            front = Material(instruments.instrument(rng, int(380 * tall), int(380 * wide)))
             z = 0.86 + level * (tall + 0.01)
             stand.box((0, wide), (0.15, 0.48), (z, z + tall), case, front=front)
         return wide
@@ -92,7 +91,7 @@ def _rack_side(site: Site, stand: Stand, length: float) -> None:
     rng, x = site.rng, 0.05
     dark = paint((40, 42, 46))
     for _ in range(2):
-        front = Material(laboratory.rack(rng, 400, 150))
+        front = Material(instruments.rack(rng, 400, 150))
         stand.box((x, x + 0.62), (0, 0.55), (0, 1.75), dark, front=front)
         x += 0.66
     for _ in range(2):
