@@ -16,14 +16,14 @@ DEPTH_UNITS_PER_M = 100.0
 def encode_colour(frame: Frame, quality: int) -> bytes:
     """Return the colour image as JPEG."""
     bgr = cv2.cvtColor(frame.colour, cv2.COLOR_RGB2BGR)
-    return cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])[1].tobytes()
+    return bytes(cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])[1])
 
 
 def encode_depth(frame: Frame, step: int) -> bytes:
     """Return every `step`-th row and column of the depth as 16-bit PNG in centimetres."""
     raw = frame.depth[::step, ::step] * DEPTH_UNITS_PER_M + 0.5
     image = np.minimum(raw, np.iinfo(np.uint16).max).astype(np.uint16)
-    return cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1].tobytes()
+    return bytes(cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1])
 
 
 def thinned(intrinsics: Intrinsics, step: int) -> Intrinsics:

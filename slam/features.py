@@ -28,6 +28,9 @@ class FeatureSettings(Settings):
     working_width: int = Field(
         320, ge=80, description="images wider than this are halved before detection until they fit"
     )
+    min_features: int = Field(
+        200, ge=0, description="fewer on the halved image, and the whole one is searched"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +65,7 @@ class FeatureExtractor:
 
     SIFT (Lowe, 2004) doubles its input before the first octave. On an image halved beforehand
     the first octave is therefore the full resolution: the finest features, which are the least
-    repeatable, are left out, at a quarter of the time.
+    repeatable, are left out, at a quarter of the time. Where little is to be seen they are taken.
 
     Raises
     ------
@@ -89,6 +92,13 @@ class FeatureExtractor:
         scale = 1
         while grey.shape[1] / scale > self.settings.working_width:
             scale *= 2
+        features = self._extract(grey, scale)
+        if scale > 1 and len(features) < self.settings.min_features:
+            features = self._extract(grey, 1)
+        return features
+
+    def _extract(self, grey: NDArray[np.uint8], scale: int) -> Features:
+        """Return the features of an image made smaller by a whole number."""
         if scale > 1:
             size = (grey.shape[1] // scale, grey.shape[0] // scale)
             grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)

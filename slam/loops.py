@@ -30,6 +30,21 @@ class LoopSettings(Settings):
     max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
     max_angle_deg: float = Field(45.0, gt=0, le=180, description="and up to this turned")
     min_inliers: int = Field(30, ge=10, description="matches that must agree")
+    slack_m: float = Field(
+        0.3, gt=0, le=100, description="correction that is always believed, metres"
+    )
+    slack_deg: float = Field(
+        10.0, gt=0, le=180, description="correction that is always believed, degrees"
+    )
+    drift_share: float = Field(
+        0.03, ge=0, le=1, description="drift believed, as a share of the way in between"
+    )
+    drift_deg_per_m: float = Field(
+        0.5, ge=0, le=90, description="rotation believed for each metre in between, degrees"
+    )
+    min_agreement: float = Field(
+        0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
+    )
 
 
 class LoopCloser:
@@ -57,13 +72,13 @@ class LoopCloser:
             Keyframes that it is linked to anyway; they close no loop.
         """
         words = self.index.words_of(keyframe.features.descriptors)
-        measured = []
+        measured: list[Measured] = []
         if self.settings.enabled:
             tried = self._alike(words, keyframe.id, known)
             tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
             for candidate in tried:
                 link = self.linker.between(view, keyframe, keyframes[candidate])
-                if link is not None and link.inliers >= self.settings.min_inliers:
+                if link is not None and self._is_sound(link, view, keyframes, graph):
                     measured.append(link)
         self.index.add(keyframe.id, words)
         return measured
@@ -72,6 +87,30 @@ class LoopCloser:
         """Return the keyframes that look most like a view, for relocalisation."""
         words = self.index.words_of(view.features.descriptors)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
+
+    def _is_sound(
+        self, measured: Measured, view: View, keyframes: dict[int, Keyframe], graph: PoseGraph
+    ) -> bool:
+        """Whether a loop rests on enough matches, on depth too, and corrects no more than drift.
+
+        Look-alike places (the doors of a corridor, its two ends) match well but lie elsewhere:
+        the correction they ask for is larger than the way in between can have caused.
+        """
+        if measured.inliers < self.settings.min_inliers:
+            return False
+        link = measured.link
+        way = graph.way_between(link.first, link.second)
+        believed = poses.inverse(graph[link.first]) @ graph[link.second]
+        correction = poses.inverse(believed) @ link.T_first_second
+        metres = float(np.linalg.norm(correction[:3, 3]))
+        degrees = float(np.degrees(poses.rotation_angle(correction)))
+        if metres > self.settings.slack_m + self.settings.drift_share * way:
+            return False
+        if degrees > self.settings.slack_deg + self.settings.drift_deg_per_m * way:
+            return False
+        T_view_other = poses.inverse(link.T_first_second)
+        cloud = keyframes[link.first].cloud
+        return depth_agreement(cloud, T_view_other, view) >= self.settings.min_agreement
 
     def _alike(self, words: NDArray[np.intp], keyframe: int, known: set[int]) -> list[int]:
         ranked = self.index.rank(words, before=keyframe)
@@ -94,3 +133,24 @@ class LoopCloser:
             if distance < self.settings.max_distance_m and angle < self.settings.max_angle_deg:
                 found.append((float(distance) + float(angle) / 45.0, other))
         return [other for _, other in sorted(found)[: self.settings.neighbours]]
+
+
+def depth_agreement(cloud: NDArray[np.float32], T_view_cloud: FloatArray, view: View) -> float:
+    """Return the share of a cloud's points in view that do not lie in space the view sees through.
+
+    Points hidden behind what the view sees count for nothing. 0 where fewer than 50 points are
+    left to compare.
+    """
+    intrinsics, depth = view.frame.intrinsics, view.frame.depth
+    points = poses.transform(T_view_cloud, cloud[::8])
+    points = points[points[:, 2] > 0.1]
+    pixels = np.rint(intrinsics.project(points)).astype(np.intp)
+    inside = np.all((pixels >= 0) & (pixels < (intrinsics.width, intrinsics.height)), axis=1)
+    seen = depth[pixels[inside, 1], pixels[inside, 0]]
+    z = points[inside, 2][seen > 0]
+    seen = seen[seen > 0]
+    tolerance = 0.05 + 0.03 * seen
+    on_surface = int((np.abs(z - seen) <= tolerance).sum())
+    seen_through = int((z < seen - tolerance).sum())
+    total = on_surface + seen_through
+    return on_surface / total if total >= 50 else 0.0

@@ -85,6 +85,12 @@ class PoseGraph:
         """All T_world_keyframe (4, 4) by keyframe id."""
         return dict(self._poses)
 
+    def way_between(self, first: int, second: int) -> float:
+        """Return the length of the way from one keyframe to the other, in order, metres."""
+        keys = [key for key in sorted(self._poses) if first <= key <= second]
+        centres = np.array([self._poses[key][:3, 3] for key in keys])
+        return float(np.linalg.norm(np.diff(centres, axis=0), axis=1).sum())
+
     def add_keyframe(self, keyframe: int, T_world_keyframe: FloatArray) -> None:
         """Add a keyframe where it is believed to be; the first one stays there.
 

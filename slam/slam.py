@@ -13,8 +13,8 @@ from datasets.frame import Frame
 from datasets.settings import Settings
 from slam.appearance import AppearanceSettings
 from slam.features import FeatureExtractor, FeatureSettings
-from slam.icp import IcpSettings, align_planes
-from slam.keyframe import Keyframe, cloud_of
+from slam.icp import IcpSettings
+from slam.keyframe import Keyframe
 from slam.linker import Linker
 from slam.local_map import LocalMap
 from slam.loops import LoopCloser, LoopSettings
@@ -22,7 +22,7 @@ from slam.map import MapSettings, PointMap, build_map
 from slam.mapper import Coarse, KeyframeSettings, Mapper
 from slam.motion import MotionSettings
 from slam.noise import SensorNoise
-from slam.planes import PlaneSettings, extract_planes
+from slam.planes import PlaneSettings
 from slam.pose_graph import PoseGraph, PoseGraphSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
 from slam.tracker import Located, Tracker, TrackerSettings
@@ -76,7 +76,9 @@ class Slam:
             LoopCloser(settings.loops, settings.appearance, linker),
             PoseGraph(settings.pose_graph),
         )  # fmt: skip
-        self._depth_odometry = DepthOdometry(settings.textureless)
+        self._depth_odometry = DepthOdometry(
+            settings.textureless, settings.planes, settings.icp, settings.noise
+        )
         self._around: LocalMap | None = None
         self._last: Anchor | None = None
         self._last_view: View | None = None
@@ -153,35 +155,16 @@ class Slam:
         return np.asarray(T_camera_world @ self.mapper.graph[self._around.reference])
 
     def _by_depth(self, view: View) -> Coarse | None:
+        """Carry on from the last frame with a pose by depth alone."""
         if not self.settings.textureless.enabled or self._last is None or self._last_view is None:
             return None
         if not self._depth_odometry.is_tracking:
             self._depth_odometry.remember(self._last_view.frame)
-        T_last_camera = self._depth_odometry.register(view.frame, poses.inverse(self._velocity))
-        if T_last_camera is None:
+        step = self._depth_odometry.register(view.frame, self._velocity)
+        if step is None:
             return None
-        T_camera_last, information = self._on_planes(view, poses.inverse(T_last_camera))
-        T_camera_reference = T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
-        return Coarse(self._last.keyframe, T_camera_reference, information)
-
-    def _on_planes(self, view: View, T_camera_last: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Refine a motion from depth alone on common planes; return it with its information."""
-        assert self._last_view is not None
-        settings = self.settings
-        weak = np.diag(np.repeat([0.02, 0.03], 3) ** -2.0)
-        planes = [
-            extract_planes(
-                cloud_of(v, settings.map.stride, settings.max_depth_m)[0].astype(np.float64),
-                settings.noise, settings.planes,
-            )
-            for v in (self._last_view, view)
-        ]  # fmt: skip
-        aligned = align_planes(
-            planes[0], planes[1], T_camera_last, weak, settings.noise, settings.icp
-        )
-        if aligned is None or not aligned.improves:
-            return T_camera_last, weak
-        return aligned.T_target_source, weak + aligned.information
+        T_camera_reference = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
+        return Coarse(self._last.keyframe, T_camera_reference, step.information)
 
     def _relocalise(self, view: View) -> Located | None:
         """Look for the view among the keyframes last seen and those that look alike."""
