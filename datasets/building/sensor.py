@@ -19,7 +19,7 @@ MIN_DEPTH_M, MAX_DEPTH_M = 0.5, 5.0
 FOCAL_BASELINE = 43.5
 DISPARITY_STEP = 1 / 8
 # Standard deviation of the colours' noise, out of 255, before the exposure's gain.
-COLOUR_NOISE: dict[Light, float] = {"day": 2.2, "dusk": 3.4, "night": 5.0}
+COLOUR_NOISE: dict[Light, float] = {"day": 2.2, "dusk": 3.2, "night": 4.2}
 MEAN_COLOUR = 118.0
 
 

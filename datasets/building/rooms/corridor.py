@@ -98,8 +98,10 @@ def _stretch(
             stand.picture((x, x + 1.05), (1.05, 1.87), 0.02, board)
             x += 1.2
         elif kind == 2 and end - x > 1.0:
-            stand.box((x, x + 0.9), (0.02, 0.12), (0.12, 0.72), paint((206, 204, 196)),
-                      front=Material(signs.radiator(150, 230)))  # fmt: skip
+            ribs = Material(signs.radiator(150, 230))
+            stand.box((x, x + 0.9), (0.02, 0.12), (0.12, 0.72), paint((206, 204, 196)), front=ribs)
+            notice = Material(ink.framed(ink.poster(rng, 160, 220), (90, 94, 98), 4))
+            stand.picture((x + 0.08, x + 0.82), (1.1, 1.64), 0.015, notice)
             x += 1.05
         elif kind == 3:
             _extinguisher(site, stand.at(x))
@@ -113,7 +115,7 @@ def _stretch(
             stand.picture((x, x + 0.56), (1.1, 1.86), 0.015, picture)
             x += 0.75
         else:
-            x += float(rng.uniform(0.3, 0.6))
+            x += float(rng.uniform(0.2, 0.45))
 
 
 def _extinguisher(site: Site, stand: Stand) -> None:

@@ -164,9 +164,13 @@ def shower_curtain(rng: Generator, height: int, width: int) -> Image:
     folds = 0.16 * np.sin(np.arange(width, dtype=np.float32) / 9)
     colour = pick(rng, ((200, 224, 232), (226, 232, 214), (220, 214, 232)))
     image = tint(colour, np.repeat(folds[None], height, axis=0))
-    ink = pick(rng, ((40, 110, 170), (30, 140, 130), (200, 90, 110)))
+    inks = [pick(rng, ((40, 110, 170), (30, 140, 130), (200, 90, 110))) for _ in range(3)]
     for y in range(14, height, 34):
         for x in range(10 + 17 * (y // 34 % 2), width, 34):
-            cv2.circle(image, (x, y), 8, ink, -1, cv2.LINE_AA)
-            cv2.circle(image, (x - 2, y - 2), 3, (250, 250, 250), -1, cv2.LINE_AA)
+            # No two alike: a regular pattern would match itself everywhere.
+            at = x + int(rng.integers(-6, 7)), y + int(rng.integers(-6, 7))
+            axes = int(rng.integers(4, 13)), int(rng.integers(3, 8))
+            ink, angle = inks[int(rng.integers(3))], float(rng.uniform(0, 180))
+            cv2.ellipse(image, at, axes, angle, 0, 360, ink, -1, cv2.LINE_AA)
+            cv2.circle(image, (at[0] - 2, at[1] - 2), 2, (250, 250, 250), -1, cv2.LINE_AA)
     return image
