@@ -19,7 +19,7 @@ class LabellerSettings(Settings):
     """How many frames vote."""
 
     window: int = Field(
-        9, ge=1, le=999, description="frames around each that vote on its label (paper: w); odd"
+        31, ge=1, le=999, description="frames around each that vote on its label (paper: w); odd"
     )
 
     @field_validator("window")
