@@ -29,6 +29,12 @@ def inverse(T: FloatArray) -> FloatArray:
     return result
 
 
+def orthonormal(T: FloatArray) -> FloatArray:
+    """Return the rigid motion nearest to `T` (4, 4), which rounding has bent."""
+    U, _, Vt = np.linalg.svd(T[:3, :3])
+    return pose(U @ Vt, T[:3, 3])
+
+
 def transform(T: FloatArray, points: NDArray[np.floating]) -> FloatArray:
     """Move points (N, 3) by the rigid motion `T` (4, 4)."""
     return np.asarray(points @ T[:3, :3].T + T[:3, 3], dtype=np.float64)

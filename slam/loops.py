@@ -28,7 +28,7 @@ class LoopSettings(Settings):
         0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
     )
     max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
-    max_angle_deg: float = Field(45.0, gt=0, le=180, description="and up to this turned")
+    max_angle_deg: float = Field(45.0, gt=0, le=180, description="and axes up to this apart")
     min_inliers: int = Field(30, ge=10, description="matches that must agree")
     slack_m: float = Field(
         0.3, gt=0, le=100, description="correction that is always believed, metres"
@@ -123,16 +123,21 @@ class LoopCloser:
         ][: self.settings.candidates]
 
     def _nearby(self, keyframe: int, graph: PoseGraph, known: set[int]) -> list[int]:
-        T_keyframe_world = poses.inverse(graph[keyframe])
-        found = []
-        for other, T_world_other in graph.poses.items():
-            if keyframe - other <= self.settings.min_gap or other in known:
-                continue
-            T = T_keyframe_world @ T_world_other
-            distance, angle = np.linalg.norm(T[:3, 3]), np.degrees(poses.rotation_angle(T))
-            if distance < self.settings.max_distance_m and angle < self.settings.max_angle_deg:
-                found.append((float(distance) + float(angle) / 45.0, other))
-        return [other for _, other in sorted(found)[: self.settings.neighbours]]
+        """Return old keyframes that should see the same by their pose, the nearest first."""
+        others = [
+            other
+            for other in graph.poses
+            if keyframe - other > self.settings.min_gap and other not in known
+        ]
+        if not others:
+            return []
+        T = poses.inverse(graph[keyframe]) @ np.array([graph[other] for other in others])
+        distance = np.linalg.norm(T[:, :3, 3], axis=1)
+        # How far apart the optical axes point.
+        angle = np.degrees(np.arccos(np.clip(T[:, 2, 2], -1, 1)))
+        near = (distance < self.settings.max_distance_m) & (angle < self.settings.max_angle_deg)
+        order = np.argsort(distance + angle / 45.0, kind="stable")
+        return [others[i] for i in order if near[i]][: self.settings.neighbours]
 
 
 def depth_agreement(cloud: NDArray[np.float32], T_view_cloud: FloatArray, view: View) -> float:

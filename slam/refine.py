@@ -48,7 +48,8 @@ def refine_motion(
     found: Correspondences,
     intrinsics: Intrinsics,
     noise: SensorNoise,
-    iterations: int = 8,
+    iterations: int = 10,
+    width: float = 1.0,
 ) -> RefinedMotion:
     """Improve a motion by iteratively reweighted Gauss-Newton.
 
@@ -63,6 +64,9 @@ def refine_motion(
         Where to start.
     found : Correspondences
         N of them, at least 3.
+    width : float
+        Of the kernel at first, in standard deviations; halved each time until it is 1. A wide one
+        draws in a start that is some pixels off (graduated non-convexity).
     """
     T = T_camera_reference
     rays = found.points / found.points[:, 2:]
@@ -71,13 +75,14 @@ def refine_motion(
         residual, J = _residuals(T, found, intrinsics)
         W = _weights(T, J, rays * sigma_reference[:, None], found, noise)
         error = np.einsum("ni,nij,nj->n", residual, W, residual)
-        W *= (1.0 / (1.0 + error / CHI2_95))[:, None, None]
+        W *= (1.0 / (1.0 + error / (CHI2_95 * width**2)))[:, None, None]
         JW = np.swapaxes(J, 1, 2) @ W
         H = (JW @ J).sum(axis=0)
         step = -np.linalg.solve(H + 1e-6 * np.eye(6), (JW @ residual[..., None]).sum(axis=0)[:, 0])
         T = poses.exponential(step) @ T
-        if np.abs(step).max() < 1e-6:
+        if width == 1.0 and np.abs(step).max() < 1e-5:
             break
+        width = max(1.0, width / 2)
     residual, J = _residuals(T, found, intrinsics)
     W = _weights(T, J, rays * sigma_reference[:, None], found, noise)
     error = np.einsum("ni,nij,nj->n", residual, W, residual)

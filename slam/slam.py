@@ -152,7 +152,8 @@ class Slam:
         if self._last is None or self._around is None:
             return None
         T_camera_world = self._velocity @ poses.inverse(self.pose_of(self._last))
-        return np.asarray(T_camera_world @ self.mapper.graph[self._around.reference])
+        # Products of predictions feed the next one: without this, rounding errors double each frame.
+        return poses.orthonormal(T_camera_world @ self.mapper.graph[self._around.reference])
 
     def _by_depth(self, view: View) -> Coarse | None:
         """Carry on from the last frame with a pose by depth alone."""

@@ -29,6 +29,9 @@ class TrackerSettings(Settings):
     guided_inliers: int = Field(
         40, ge=6, description="fewer from guided matching, and all features are matched anew"
     )
+    guided_share: float = Field(
+        0.5, gt=0, le=1, description="of guided matches that must agree; if fewer, RANSAC decides"
+    )
     min_inliers: int = Field(15, ge=6, description="fewer agreeing matches are no pose")
     min_share: float = Field(
         0.15, ge=0, le=1, description="of matches that must agree with a pose at least"
@@ -112,6 +115,14 @@ class Tracker:
             around.descriptors[rows], view.features.descriptors, self.settings.ratio, allowed
         )
         pairs[:, 0] = rows[pairs[:, 0]]
+        pairs = one_a_position(pairs, view.features.pixels)
+        if len(pairs) < self.settings.min_inliers:
+            return None
+        # The prediction is near and wrong matches are few: no need of RANSAC.
+        found = correspondences(around.points, view, pairs)
+        fine = refine_motion(T_camera_reference, found, intrinsics, self.noise, width=0.25 * radius)
+        if fine.count >= max(self.settings.min_inliers, self.settings.guided_share * len(pairs)):
+            return Located(around, fine, pairs[fine.inliers])
         return self._solve(view, around, pairs)
 
     def _solve(self, view: View, around: LocalMap, pairs: Matches) -> Located | None:

@@ -23,6 +23,13 @@ def test_quaternions_are_xyzw():
     assert np.allclose(poses.transform(quarter_turn, np.array([[1.0, 0, 0]])), [[1, 3, 3]])
 
 
+def test_orthonormal_mends_what_rounding_has_bent(random_poses, rng):
+    bent = random_poses[0] + np.pad(1e-4 * rng.normal(size=(3, 3)), ((0, 1), (0, 1)))
+    mended = poses.orthonormal(bent)
+    assert np.allclose(mended[:3, :3] @ mended[:3, :3].T, np.eye(3), atol=1e-12)
+    assert np.allclose(mended, random_poses[0], atol=1e-3)
+
+
 def test_transform_is_the_matrix_product(random_poses, rng):
     points = rng.normal(size=(9, 3))
     expected = (random_poses[0] @ np.column_stack([points, np.ones(9)]).T).T[:, :3]
