@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from app.clock import StageClock
 from app.config import AppSettings
@@ -77,14 +78,16 @@ class Pipeline:
         Whatever ends it, an unreadable frame or the user, what was found so far is written.
         """
         self.viewer.start(self._session())
-        try:
-            for view in self._views():
-                tracking = self._track(view)
-                self._label(tracking)
-                self._show(view, tracking)
-                self._checkpoint(tracking)
-        finally:
-            metrics = self._finish()
+        # The matrices are small: BLAS threads would only get in the way of those that read ahead.
+        with threadpool_limits(1, user_api="blas"):
+            try:
+                for view in self._views():
+                    tracking = self._track(view)
+                    self._label(tracking)
+                    self._show(view, tracking)
+                    self._checkpoint(tracking)
+            finally:
+                metrics = self._finish()
         return metrics
 
     def _views(self) -> Iterator[View]:

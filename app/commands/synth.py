@@ -23,6 +23,7 @@ def synth(
         float, typer.Option("--step", metavar="M", help="Way between two frames, metres.")
     ] = 0.08,
     laps: Annotated[int, typer.Option("--laps", min=1, help="Times round the floor.")] = 1,
+    frames: options.FramesOption = None,
     width: Annotated[int, typer.Option("--width", help="Of the images, pixels.")] = 640,
     height: Annotated[int, typer.Option("--height", help="Of the images, pixels.")] = 480,
     overwrite: options.OverwriteOption = False,
@@ -44,7 +45,14 @@ def synth(
 
     terminal = Terminal(quiet)
     settings = building_settings(
-        seed=seed, light=light, noise=noise, step_m=step, laps=laps, width=width, height=height
+        seed=seed,
+        light=light,
+        noise=noise,
+        step_m=step,
+        laps=laps,
+        frames=frames,
+        width=width,
+        height=height,
     )
     clear_output(output, overwrite, "places.csv")
     render({settings.light: output}, settings, terminal)

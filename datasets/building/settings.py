@@ -32,6 +32,8 @@ class BuildingSettings(Settings):
         Largest rotation between two frames, degrees.
     laps : int
         How often the walk is repeated.
+    frames : int or None
+        Only the first so many frames of the walk.
     rate_hz : float
         Frames a second; sets the time stamps only.
     """
@@ -44,6 +46,7 @@ class BuildingSettings(Settings):
     step_m: float = Field(0.08, ge=0.01, le=0.5)
     turn_deg: float = Field(4.1, ge=0.2, le=20)
     laps: int = Field(1, ge=1, le=10)
+    frames: int | None = Field(None, ge=1)
     rate_hz: float = Field(30.0, gt=0, le=240)
 
     @property

@@ -54,13 +54,13 @@ def walk(building: Building, settings: BuildingSettings) -> Trajectory:
     """Walk through every room and back to the start, `settings.laps` times.
 
     The last pose is the first one again. A frame moves the camera by at most `step_m`, and turns
-    it by at most about `turn_deg`.
+    it by at most about `turn_deg`. With `settings.frames` only the walk's beginning is returned.
     """
     way = find_way(building)
     arc = _pace(way, settings)
     lap = way.arc_m[-1]
     frames = len(arc) - 1
-    index = np.arange(frames * settings.laps + 1)
+    index = np.arange(frames * settings.laps + 1)[: settings.frames]
     along = arc[index % frames]
     x, y = (np.interp(along, way.arc_m, way.xy[:, axis]) for axis in (0, 1))
     heading = np.interp(along, way.arc_m, way.heading)
