@@ -1,11 +1,10 @@
-"""The ``roomgraph`` command."""
+"""The ``roomgraph`` command and its subcommands."""
 
 from __future__ import annotations
 
-import sys
-from importlib.util import find_spec
-from pathlib import Path
-from typing import Annotated
+from collections.abc import Callable
+from functools import wraps
+from typing import Annotated, Any
 
 import typer
 
@@ -51,31 +50,23 @@ def _root(
     """Turn an RGB-D sequence into a labelled 3-D map and a graph of its rooms."""
 
 
+def _guarded(command: Callable[..., None]) -> Callable[..., None]:
+    """Turn an expected failure into one line on standard error and exit status 1."""
+
+    @wraps(command)
+    def run_command(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except RoomgraphError as error:
+            typer.echo(f"roomgraph: {error}", err=True)
+            raise typer.Exit(EXIT_FAILURE) from error
+        except KeyboardInterrupt as error:
+            typer.echo("roomgraph: interrupted; what was done so far is on disk", err=True)
+            raise typer.Exit(EXIT_INTERRUPTED) from error
+
+    return run_command
+
+
 for _command in (demo, run, train, label, view, export, synth, config):
-    cli.command()(_command)
-cli.command("eval")(evaluate)
-
-
-def main() -> None:
-    """Run the command; an expected failure is one line on standard error and exit status 1."""
-    try:
-        _check_datasets_is_ours()
-        cli(standalone_mode=True)
-    except RoomgraphError as error:
-        sys.stderr.write(f"roomgraph: {error}\n")
-        sys.exit(EXIT_FAILURE)
-    except KeyboardInterrupt:
-        sys.stderr.write("roomgraph: interrupted; what was done so far is on disk\n")
-        sys.exit(EXIT_INTERRUPTED)
-
-
-def _check_datasets_is_ours() -> None:
-    """Raise if another package called `datasets` would be imported in place of ours."""
-    found = find_spec("datasets")
-    ours = Path(__file__).resolve().parent.parent / "datasets"
-    if found is None or found.origin is None or Path(found.origin).resolve().parent != ours:
-        raise RoomgraphError(
-            "another package named 'datasets' is in the way",
-            where=found.origin if found else None, expected=str(ours),
-            hint="install roomgraph into an environment of its own",
-        )  # fmt: skip
+    cli.command()(_guarded(_command))
+cli.command("eval")(_guarded(evaluate))

@@ -43,7 +43,7 @@ def run_metrics(
         "frames_tracked": tracked,
         "frames_lost": states[TrackingState.LOST],
         "frames_skipped": len(sequence) - tracked - states[TrackingState.LOST],
-        "frames_without_features": sum(label.tracking.method == "kiss-icp" for label in labels),
+        "frames_by_depth": sum(label.tracking.method == "depth" for label in labels),
         "keyframes": len(slam.keyframes),
         "loop_closures": len(slam.mapper.closures),
         "path_length_m": round(trajectory.length_m, 4),

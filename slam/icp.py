@@ -29,7 +29,7 @@ class IcpSettings(Settings):
     points_per_plane: int = Field(300, ge=20, description="points of each plane that take part")
     iterations: int = Field(8, ge=1, le=100, description="at most")
     sigma_correlated_m: float = Field(
-        0.003, gt=0, le=0.1, description="error that all readings of one plane share"
+        0.01, gt=0, le=0.1, description="error that all readings of one plane share"
     )
 
 

@@ -22,7 +22,10 @@ class PlaneSettings(Settings):
     min_share: float = Field(0.06, gt=0, le=1, description="of a view's points, the least a plane")
     iterations: int = Field(128, ge=8, le=10_000, description="RANSAC hypotheses a plane")
     sigma_threshold: float = Field(
-        3.0, gt=0, le=20, description="points lie on a plane within this many standard deviations"
+        2.0, gt=0, le=20, description="points lie on a plane within this many standard deviations"
+    )
+    flatness: float = Field(
+        0.45, gt=0, le=1, description="root mean square distance at most, as a share of the bound"
     )
     points: int = Field(4000, ge=200, description="points of a view that are looked at")
     seed: int = Field(0, ge=0, description="of the random samples")
@@ -61,7 +64,9 @@ def extract_planes(
     needed = max(30, int(settings.min_share * len(points_camera)))
     planes: list[Plane] = []
     rest = points_camera
-    while len(rest) >= needed and len(planes) < settings.max_planes:
+    for _ in range(settings.max_planes):
+        if len(rest) < needed:
+            break
         alpha = settings.sigma_threshold * noise.depth_sigma(rest[:, 2])
         on_plane = _best_sample(rest, alpha, settings.iterations, rng)
         if on_plane.sum() < needed:
@@ -71,7 +76,10 @@ def extract_planes(
         if on_plane.sum() < needed:
             break
         normal, offset = fit_plane(rest[on_plane])
-        planes.append(Plane(normal, offset, rest[on_plane]))
+        distance = (rest[on_plane] @ normal + offset) / alpha[on_plane]
+        # Clutter fills the slab evenly (a root mean square of 0.58); a surface lies in its middle.
+        if np.sqrt(np.mean(distance**2)) < settings.flatness:
+            planes.append(Plane(normal, offset, rest[on_plane]))
         rest = rest[~on_plane]
     return tuple(planes)
 

@@ -152,7 +152,7 @@ class Slam:
         if self._last is None or self._around is None:
             return None
         T_camera_world = self._velocity @ poses.inverse(self.pose_of(self._last))
-        # Products of predictions feed the next one: without this, rounding errors double each frame.
+        # A prediction feeds the next one: left alone, rounding errors double with each frame.
         return poses.orthonormal(T_camera_world @ self.mapper.graph[self._around.reference])
 
     def _by_depth(self, view: View) -> Coarse | None:
@@ -188,7 +188,7 @@ class Slam:
             anchor = _anchor(located.local_map.reference, located.motion.T_camera_reference)
             is_keyframe = self.mapper.wants(view, located)
         else:
-            inliers, method = 0, "kiss-icp"
+            inliers, method = 0, "depth"
             anchor = _anchor(located.reference, located.T_camera_reference)
             is_keyframe = self._far(anchor)
         self._follow(anchor)

@@ -31,6 +31,9 @@ class TexturelessSettings(Settings):
         0.7, gt=0, le=1, description="share of points that must fall onto the cloud before"
     )
     fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the cloud")
+    clearly_better: float = Field(
+        0.9, gt=0, le=1, description="KISS-ICP's misfit, as a share of the guess's, to be taken"
+    )
     max_step_m: float = Field(0.5, gt=0, le=5, description="a longer step is not believed")
     sigma_rotation_rad: float = Field(
         0.02, gt=0, le=1, description="error of a step where no plane holds it, radians"
@@ -60,8 +63,8 @@ class DepthOdometry:
     """Registers depth images one after the other.
 
     KISS-ICP (Vizzo et al., 2023) is point to point and slides along planes, so it only proposes:
-    its motion and the guess are both refined on common planes, and the one after which the clouds
-    lie closer together is taken.
+    its motion and the guess are both refined on common planes, and the guess is taken unless the
+    clouds lie clearly closer together after KISS-ICP's.
     """
 
     def __init__(
@@ -105,7 +108,9 @@ class DepthOdometry:
         tree = cKDTree(self._last.cloud)
         steps = [self._on_planes(surface, T) for T in (T_camera_last, proposed)]
         distances = [self._distances(tree, surface.cloud, step) for step in steps]
-        best = int(np.argmin([distance.mean() for distance in distances]))
+        misfit = [float(distance.mean()) for distance in distances]
+        # Sliding along a wall hardly changes the misfit: KISS-ICP has to be clearly better.
+        best = int(misfit[1] < self.settings.clearly_better * misfit[0])
         overlap = float((distances[best] < self.settings.fit_m).mean())
         step = steps[best]
         far = np.linalg.norm(step.T_camera_last[:3, 3]) > self.settings.max_step_m

@@ -63,7 +63,7 @@ class Tracking:
     inliers : int
         Feature matches that agree with the pose; 0 if it does not come from features.
     method : str
-        What the pose comes from: ``features``, ``kiss-icp``, or ``none``.
+        What the pose comes from: ``features``, ``depth`` alone, or ``none``.
     anchor : Anchor or None
         The pose, relative to a keyframe; None where there is none.
     T_world_camera : (4, 4) float64 or None

@@ -1,0 +1,220 @@
+"""The command as a user meets it: what it writes, and what it says when something is wrong."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from app.main import main
+from app.run_folder import RunFolder
+from datasets.trajectory import read_kitti, read_tum
+from semantics.graph_io import read_graph_json
+from tests.check_run import problems
+
+
+def roomgraph(monkeypatch, *arguments):
+    """Run the command in this process; return its exit status."""
+    monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])
+    with pytest.raises(SystemExit) as exit_:
+        main()
+    return exit_.value.code or 0
+
+
+@pytest.fixture(scope="module")
+def mapped(rendered_walk, tmp_path_factory):
+    """Folders of a place model and of a run with it, on the rendered walk."""
+    root = tmp_path_factory.mktemp("mapped")
+    with pytest.MonkeyPatch.context() as patch:
+        model = root / "model"
+        status = roomgraph(patch, "train", rendered_walk, "-o", model, "--quiet")
+        assert status == 0
+        arguments = ("run", rendered_walk, "-o", root / "run", "--model", model, "--quiet")
+        assert roomgraph(patch, *arguments) == 0
+    return model, root / "run"
+
+
+def test_a_run_is_whole_and_accurate(mapped):
+    _, run = mapped
+    assert problems(run, None, max_ate=0.03) == []
+    metrics = RunFolder(run).read_metrics()
+    assert metrics["frames_tracked"] == metrics["frames"]
+    assert metrics["place_accuracy_per_frame"] > 0.8
+    assert not list(run.glob(".*"))
+
+
+def test_the_same_run_twice_gives_the_same_files(mapped, rendered_walk, tmp_path, monkeypatch):
+    model, run = mapped
+    again = tmp_path / "again"
+    arguments = ("run", rendered_walk, "-o", again, "--model", model, "--quiet", "--no-rrd")
+    assert roomgraph(monkeypatch, *arguments) == 0
+    for name in ("trajectory.tum", "frames.csv", "graph.json", "map.ply", "pose_graph.g2o"):
+        assert (again / name).read_bytes() == (run / name).read_bytes(), name
+    assert not (again / "recording.rrd").exists()
+
+
+def test_eval_repeats_the_runs_own_figures(mapped, tmp_path, monkeypatch, capsys):
+    _, run = mapped
+    assert roomgraph(monkeypatch, "eval", run, "-o", tmp_path / "errors.png") == 0
+    ate = RunFolder(run).read_metrics()["ate_rmse_m"]
+    assert f"{ate * 100:.2f} cm" in capsys.readouterr().out
+    assert (tmp_path / "errors.png").stat().st_size > 10_000
+
+
+def test_label_says_how_right_it_is(mapped, rendered_walk, tmp_path, monkeypatch, capsys):
+    model, _ = mapped
+    table = tmp_path / "labels.csv"
+    assert roomgraph(monkeypatch, "label", model, rendered_walk, "-o", table) == 0
+    rows = table.read_text().splitlines()
+    assert rows[0] == "item,label,score,truth"
+    assert len(rows) == 61
+    assert "all" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "kind", ["tum", "kitti", "csv", "ply", "pcd", "g2o", "json", "graphml", "dot"]
+)
+def test_exports_are_written(mapped, tmp_path, monkeypatch, kind):
+    _, run = mapped
+    out = tmp_path / f"product.{kind}"
+    assert roomgraph(monkeypatch, "export", run, kind, "-o", out, "--quiet") == 0
+    assert out.stat().st_size > 0
+    assert roomgraph(monkeypatch, "export", run, kind, "-o", out, "--quiet") == 1
+
+
+def test_exported_trajectories_agree(mapped, tmp_path, monkeypatch):
+    _, run = mapped
+    roomgraph(monkeypatch, "export", run, "kitti", "-o", tmp_path / "k.txt", "--quiet")
+    kitti, tum = read_kitti(tmp_path / "k.txt"), read_tum(run / "trajectory.tum")
+    assert np.allclose(kitti.T_world_camera, tum.T_world_camera, atol=1e-6)
+
+
+def test_exported_cloud_opens_in_open3d(mapped, tmp_path, monkeypatch):
+    import open3d as o3d
+
+    _, run = mapped
+    roomgraph(monkeypatch, "export", run, "pcd", "-o", tmp_path / "map.pcd", "--quiet")
+    points = len(o3d.io.read_point_cloud(str(tmp_path / "map.pcd")).points)
+    assert points == RunFolder(run).read_metrics()["map_points"]
+
+
+def _fails(monkeypatch, capsys, *arguments):
+    """Run a command that must fail in one line; return that line."""
+    assert roomgraph(monkeypatch, *arguments) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("roomgraph: ")
+    assert said.count("\n") == 1
+    return said
+
+
+def test_a_truncated_image_ends_the_run_and_loses_nothing(
+    rendered_walk, tmp_path, monkeypatch, capsys
+):
+    broken = tmp_path / "broken"
+    shutil.copytree(rendered_walk, broken)
+    image = sorted((broken / "depth").iterdir(), key=lambda path: float(path.stem))[30]
+    image.write_bytes(image.read_bytes()[:-500])
+    said = _fails(monkeypatch, capsys, "run", broken, "-o", tmp_path / "out", "--quiet")
+    assert image.name in said
+    assert "cut short" in said
+    folder = RunFolder(tmp_path / "out")
+    states = [row["state"] for row in folder.read_frames()]
+    assert states == ["ok"] * 30 + ["skipped"] * 30
+    assert len(folder.read_trajectory()) == 30
+    assert len(read_graph_json(folder.graph_json).nodes) > 0
+    assert folder.read_metrics()["frames_skipped"] == 30
+
+
+def test_inputs_that_are_none(tmp_path, monkeypatch, capsys):
+    assert "no such folder" in _fails(monkeypatch, capsys, "run", tmp_path / "nowhere")
+    (tmp_path / "empty").mkdir()
+    assert "an empty folder" in _fails(monkeypatch, capsys, "run", tmp_path / "empty")
+    assert "an empty folder" not in _fails(monkeypatch, capsys, "view", tmp_path / "empty")
+    assert "not a run" in _fails(monkeypatch, capsys, "eval", tmp_path / "empty")
+    model = tmp_path / "empty"
+    assert str(model) in _fails(monkeypatch, capsys, "label", model, tmp_path)
+    assert "no training images" in _fails(
+        monkeypatch, capsys, "train", tmp_path / "empty", "-o", tmp_path / "m"
+    )
+    assert "--light" in _fails(
+        monkeypatch, capsys, "synth", "-o", tmp_path / "s", "--light", "noon"
+    )
+
+
+def test_outputs_are_not_overwritten_unasked(mapped, rendered_walk, tmp_path, monkeypatch, capsys):
+    _, run = mapped
+    said = _fails(monkeypatch, capsys, "run", rendered_walk, "-o", run)
+    assert "--overwrite" in said
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine/thesis.tex").write_text("dear to me")
+    said = _fails(monkeypatch, capsys, "run", rendered_walk, "-o", tmp_path / "mine", "--overwrite")
+    assert "not ours" in said
+    assert (tmp_path / "mine/thesis.tex").exists()
+
+
+def test_wrong_settings_are_named(rendered_walk, tmp_path, monkeypatch, capsys):
+    path = tmp_path / "settings.toml"
+    path.write_text("[slam.features]\nmax_featurs = 10\n")
+    said = _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
+    assert "slam.features.max_featurs" in said
+    path.write_text("[slam.features]\nmax_features = 3\n")
+    said = _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
+    assert "greater than or equal to 50" in said
+    path.write_text("[slam")
+    assert "TOML" in _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
+
+
+def test_usage_errors_exit_with_two(monkeypatch):
+    assert roomgraph(monkeypatch, "run") == 2
+    assert roomgraph(monkeypatch, "no-such-command") == 2
+
+
+def test_printed_settings_are_the_defaults(tmp_path, monkeypatch, capsys):
+    from app.config import AppSettings, load_settings
+
+    assert roomgraph(monkeypatch, "config") == 0
+    path = tmp_path / "settings.toml"
+    path.write_text(capsys.readouterr().out)
+    assert load_settings(path) == AppSettings()
+    assert load_settings(path, {"slam.max_depth_m": 3.0}).slam.max_depth_m == 3.0
+
+
+@pytest.mark.parametrize("command", ["demo", "run", "train", "label", "eval", "view", "export",
+                                     "synth", "config"])  # fmt: skip
+def test_help_has_examples(monkeypatch, capsys, command):
+    assert roomgraph(monkeypatch, command, "--help") == 0
+    assert f"roomgraph {command}" in capsys.readouterr().out.split("Examples")[1]
+
+
+def test_interruption_keeps_what_was_done(rendered_walk, tmp_path, monkeypatch, capsys):
+    from app.pipeline import Pipeline
+
+    label = Pipeline._label
+
+    def interrupted(self, tracking):
+        label(self, tracking)
+        if tracking.index == 20:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Pipeline, "_label", interrupted)
+    out = tmp_path / "out"
+    assert roomgraph(monkeypatch, "run", rendered_walk, "-o", out, "--quiet", "--no-rrd") == 130
+    assert "on disk" in capsys.readouterr().err
+    assert len(read_tum(out / "trajectory.tum")) == 21
+    assert json.loads((out / "metrics.json").read_text())["frames"] == 60
+
+
+def test_another_datasets_package_is_noticed(tmp_path):
+    (tmp_path / "datasets").mkdir()
+    (tmp_path / "datasets/__init__.py").write_text("")
+    code = "import sys; sys.path.insert(0, sys.argv[1]); from app.main import main; main()"
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path), "--version"],
+        capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": ""},
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "another package named 'datasets'" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,154 @@
+"""The low layer on a real short sequence: the rendered walk."""
+
+import numpy as np
+import pytest
+
+from datasets import poses
+from datasets.frame import Frame
+from datasets.sequence import frames_of, select
+from datasets.trajectory import Trajectory
+from slam.evaluation import compare
+from slam.slam import Slam, SlamSettings
+from slam.tracking import TrackingState
+
+
+def _track(sequence, settings=None, change=lambda frame: frame):
+    slam = Slam(settings or SlamSettings())
+    return slam, [slam.process(change(frame)) for frame in frames_of(sequence)]
+
+
+def _error(slam, trackings, sequence):
+    posed = [t for t in trackings if t.anchor is not None]
+    estimate = Trajectory(
+        np.array([t.stamp_s for t in posed]), np.array([slam.pose_of(t.anchor) for t in posed])
+    )
+    return compare(estimate, sequence.ground_truth)
+
+
+def _blank(frame):
+    return Frame(
+        frame.index, frame.stamp_s, np.full_like(frame.colour, 90), np.zeros_like(frame.depth),
+        frame.intrinsics,
+    )  # fmt: skip
+
+
+def _textureless(frame):
+    return Frame(
+        frame.index, frame.stamp_s, np.full_like(frame.colour, 90), frame.depth, frame.intrinsics
+    )
+
+
+@pytest.fixture(scope="module")
+def tracked(rendered_walk):
+    from datasets.open import open_sequence
+
+    sequence = open_sequence(rendered_walk)
+    return (*_track(sequence), sequence)
+
+
+def test_every_frame_is_tracked_to_centimetres(tracked):
+    slam, trackings, sequence = tracked
+    assert [t.state for t in trackings] == [TrackingState.OK] * len(sequence)
+    assert _error(slam, trackings, sequence).ate_rmse_m < 0.02
+    assert 2 <= len(slam.keyframes) < 0.6 * len(sequence)
+
+
+@pytest.mark.parametrize("detector", ["sift", "orb"])
+def test_other_detectors_track_too(rendered_sequence, detector):
+    settings = SlamSettings.model_validate({"features": {"detector": detector}})
+    sequence = select(rendered_sequence, frames=25)
+    slam, trackings = _track(sequence, settings)
+    assert all(t.state is TrackingState.OK for t in trackings)
+    assert _error(slam, trackings, sequence).ate_rmse_m < 0.03
+
+
+def test_procrustes_tracks_too(rendered_sequence):
+    settings = SlamSettings.model_validate({"motion": {"method": "procrustes"}})
+    sequence = select(rendered_sequence, frames=15)
+    slam, trackings = _track(sequence, settings)
+    assert all(t.state is TrackingState.OK for t in trackings)
+    assert _error(slam, trackings, sequence).ate_rmse_m < 0.03
+
+
+def test_blank_frames_are_skipped_and_the_camera_found_again(rendered_sequence):
+    sequence = select(rendered_sequence, frames=30)
+    slam, trackings = _track(sequence, change=lambda f: _blank(f) if 12 <= f.index < 17 else f)
+    states = [t.state for t in trackings]
+    assert states[12:17] == [TrackingState.SKIPPED] * 5
+    assert all(t.T_world_camera is None and t.anchor is None for t in trackings[12:17])
+    assert all(s.has_pose for s in states[17:])
+    assert _error(slam, trackings, sequence).ate_rmse_m < 0.02
+
+
+def test_depth_carries_on_where_there_is_no_texture(rendered_sequence):
+    sequence = select(rendered_sequence, frames=24)
+    slam, trackings = _track(
+        sequence, change=lambda f: _textureless(f) if 10 <= f.index < 14 else f
+    )
+    assert [t.method for t in trackings[10:14]] == ["depth"] * 4
+    error = _error(slam, trackings, sequence)
+    assert error.errors_m[10:14].max() < 0.1
+    assert error.ate_rmse_m < 0.05
+
+
+def test_a_jump_elsewhere_is_lost_and_said_so(rendered_sequence):
+    """Turned to noise, nothing fits: no pose may be made up."""
+    rng = np.random.default_rng(0)
+
+    def noise(frame):
+        if frame.index < 5:
+            return frame
+        return Frame(
+            frame.index, frame.stamp_s,
+            rng.integers(0, 255, frame.colour.shape, dtype=np.uint8),
+            rng.uniform(0.5, 5, frame.depth.shape).astype(np.float32), frame.intrinsics,
+        )  # fmt: skip
+
+    _, trackings = _track(select(rendered_sequence, frames=8), change=noise)
+    assert [t.state for t in trackings[5:]] == [TrackingState.LOST] * 3
+    assert all(t.anchor is None and t.T_world_camera is None for t in trackings[5:])
+
+
+def test_a_lost_camera_is_found_again(rendered_sequence):
+    frames = [rendered_sequence[i] for i in (*range(6), 40, *range(3, 9))]
+    slam = Slam(SlamSettings())
+    states = [slam.process(frame).state for frame in frames]
+    assert states[:6] == [TrackingState.OK] * 6
+    assert TrackingState.RELOCALISED in states[6:8] or states[6] is TrackingState.OK
+    assert all(s.has_pose for s in states[7:])
+
+
+def test_what_is_anchored_moves_with_its_keyframe(tracked):
+    slam, trackings, _ = tracked
+    last = trackings[-1]
+    assert np.allclose(
+        slam.pose_of(last.anchor),
+        slam.keyframe_poses[last.anchor.keyframe] @ last.anchor.T_keyframe_camera,
+    )
+
+
+def test_map_lies_on_the_rooms_surfaces(tracked):
+    """Points seen in one frame's depth and mapped from many keyframes agree."""
+    from scipy.spatial import cKDTree
+
+    slam, trackings, sequence = tracked
+    points = slam.build_map()
+    assert len(points) > 5000
+    assert points.points_world.dtype == np.float32
+    assert set(np.unique(points.keyframes)) <= set(slam.keyframes)
+    frame = sequence[30]
+    rows, columns = np.nonzero((frame.depth > 0) & (frame.depth < 3.5))
+    pick = np.random.default_rng(0).choice(len(rows), 500)
+    pixels = np.column_stack([columns, rows])[pick].astype(float)
+    seen = frame.intrinsics.backproject(pixels, frame.depth[rows, columns][pick])
+    world = poses.transform(slam.pose_of(trackings[30].anchor), seen)
+    distance, _ = cKDTree(points.points_world).query(world)
+    assert np.median(distance) < 0.03
+
+
+def test_a_voxel_holds_one_point(tracked):
+    slam, _, _ = tracked
+    points = slam.build_map().points_world
+    cells = np.floor((points - points.min(axis=0)) / slam.settings.map.voxel_m)
+    # A mean may fall on a border by rounding.
+    assert len(np.unique(cells, axis=0)) > 0.97 * len(points)
