@@ -58,7 +58,7 @@ def run_metrics(
     }
     if sequence.ground_truth is not None:
         metrics |= trajectory_metrics(trajectory, sequence.ground_truth)
-    if sequence.places is not None:
+    if sequence.places is not None and len(graph.labels) > 1:
         frames = [(label.tracking.stamp_s, label.label) for label in labels]
         metrics |= place_metrics(graph, frames, sequence.places)
     return metrics
