@@ -63,6 +63,15 @@ def logarithm(T: FloatArray) -> FloatArray:
     return np.concatenate([Rotation.from_matrix(T[:3, :3]).as_rotvec(), T[:3, 3]])
 
 
+def adjoint(T: FloatArray) -> FloatArray:
+    """Return the (6, 6) matrix that carries a left step of `T`'s source frame to its target's."""
+    R = T[:3, :3]
+    result = np.zeros((6, 6))
+    result[:3, :3] = result[3:, 3:] = R
+    result[3:, :3] = hat(T[:3, 3]) @ R
+    return result
+
+
 def rotation_angle(T: FloatArray) -> float:
     """Return the angle of the rotation of `T` (4, 4), in radians, in [0, pi]."""
     return float(Rotation.from_matrix(T[:3, :3]).magnitude())

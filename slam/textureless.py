@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.spatial import cKDTree
 
 from datasets import poses
 from datasets.frame import Frame
@@ -16,7 +15,7 @@ from datasets.settings import Settings
 from slam.icp import IcpSettings, align_planes
 from slam.noise import SensorNoise
 from slam.planes import Plane, PlaneSettings, extract_planes
-from slam.view import without_edges
+from slam.surface import Surface, align_surface, surface_of
 
 FloatArray = NDArray[np.float64]
 
@@ -28,12 +27,9 @@ class TexturelessSettings(Settings):
     voxel_m: float = Field(0.10, gt=0, le=2, description="KISS-ICP's voxel size")
     stride: int = Field(6, ge=1, le=64, description="every n-th pixel takes part")
     min_overlap: float = Field(
-        0.7, gt=0, le=1, description="share of points that must fall onto the cloud before"
+        0.5, gt=0, le=1, description="share of points that must fall onto the surface before"
     )
-    fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the cloud")
-    clearly_better: float = Field(
-        0.9, gt=0, le=1, description="KISS-ICP's misfit, as a share of the guess's, to be taken"
-    )
+    fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the surface")
     max_step_m: float = Field(0.5, gt=0, le=5, description="a longer step is not believed")
     sigma_rotation_rad: float = Field(
         0.02, gt=0, le=1, description="error of a step where no plane holds it, radians"
@@ -41,14 +37,6 @@ class TexturelessSettings(Settings):
     sigma_translation_m: float = Field(
         0.03, gt=0, le=1, description="error of a step where no plane holds it, metres"
     )
-
-
-@dataclass(frozen=True, slots=True)
-class Surface:
-    """What depth alone knows of a frame: a thinned cloud (N, 3) in metres, and its planes."""
-
-    cloud: FloatArray
-    planes: tuple[Plane, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +51,8 @@ class DepthOdometry:
     """Registers depth images one after the other.
 
     KISS-ICP (Vizzo et al., 2023) is point to point and slides along planes, so it only proposes:
-    its motion and the guess are both refined on common planes, and the guess is taken unless the
-    clouds lie clearly closer together after KISS-ICP's.
+    its motion and the guess are both refined on common planes, then on the whole surface, and the
+    one that fits the last depth image better is taken.
     """
 
     def __init__(
@@ -77,6 +65,7 @@ class DepthOdometry:
         self.settings, self.planes, self.icp, self.noise = settings, planes, icp, noise
         self._kiss: Any = None
         self._last: Surface | None = None
+        self._last_planes: tuple[Plane, ...] = ()
 
     @property
     def is_tracking(self) -> bool:
@@ -89,7 +78,8 @@ class DepthOdometry:
 
     def remember(self, frame: Frame) -> None:
         """Start from the last frame with a pose: the next one is registered to it."""
-        self._kiss, self._last = None, self._surface_of(frame)
+        self._kiss, self._last = None, surface_of(frame, self.settings.stride)
+        self._last_planes = self._planes_of(self._last.cloud)
 
     def register(self, frame: Frame, T_camera_last: FloatArray) -> Step | None:
         """Return the step from the last frame to this one, which becomes the last; or None.
@@ -101,17 +91,19 @@ class DepthOdometry:
         T_camera_last : (4, 4) float64
             A guess.
         """
-        surface = self._surface_of(frame)
-        if self._last is None or min(len(surface.cloud), len(self._last.cloud)) < 200:
+        surface = surface_of(frame, self.settings.stride)
+        cloud = surface.cloud
+        if self._last is None or min(len(cloud), len(self._last.cloud)) < 200:
             return None
-        proposed = self._propose(surface.cloud, T_camera_last)
-        tree = cKDTree(self._last.cloud)
-        steps = [self._on_planes(surface, T) for T in (T_camera_last, proposed)]
-        distances = [self._distances(tree, surface.cloud, step) for step in steps]
-        misfit = [float(distance.mean()) for distance in distances]
-        # Sliding along a wall hardly changes the misfit: KISS-ICP has to be clearly better.
-        best = int(misfit[1] < self.settings.clearly_better * misfit[0])
-        overlap = float((distances[best] < self.settings.fit_m).mean())
+        planes = self._planes_of(cloud)
+        steps = [
+            self._refine(cloud, planes, T)
+            for T in (T_camera_last, self._propose(cloud, T_camera_last))
+        ]
+        gaps = [self._gaps(cloud, step) for step in steps]
+        misfit = [float(gap.mean()) if len(gap) else np.inf for gap in gaps]
+        best = int(np.argmin(misfit))
+        overlap = float((gaps[best] < self.settings.fit_m).sum()) / len(cloud)
         step = steps[best]
         far = np.linalg.norm(step.T_camera_last[:3, 3]) > self.settings.max_step_m
         if far or overlap < self.settings.min_overlap:
@@ -119,7 +111,7 @@ class DepthOdometry:
             return None
         if best == 0:
             self._kiss = None
-        self._last = surface
+        self._last, self._last_planes = surface, planes
         return step
 
     def _propose(self, cloud: FloatArray, T_camera_last: FloatArray) -> FloatArray:
@@ -146,30 +138,36 @@ class DepthOdometry:
         kiss.register_frame(self._last.cloud, np.array([]))
         return kiss
 
-    def _on_planes(self, surface: Surface, T_camera_last: FloatArray) -> Step:
-        """Refine a motion on common planes; where they leave it free, it is held weakly."""
+    def _refine(
+        self, cloud: FloatArray, planes: tuple[Plane, ...], T_camera_last: FloatArray
+    ) -> Step:
+        """Refine a motion on common planes, then on all surface; what neither holds, stays."""
         assert self._last is not None
-        settings = self.settings
-        sigma = np.repeat([settings.sigma_rotation_rad, settings.sigma_translation_m], 3)
-        weak = np.diag(sigma**-2.0)
-        aligned = align_planes(
-            self._last.planes, surface.planes, T_camera_last, weak, self.noise, self.icp
+        sigma = [self.settings.sigma_rotation_rad, self.settings.sigma_translation_m]
+        weak = np.diag(np.repeat(sigma, 3) ** -2.0)
+        T_last_camera, held = poses.inverse(T_camera_last), weak
+        aligned = align_planes(planes, self._last_planes, T_last_camera, weak, self.noise, self.icp)
+        if aligned is not None and aligned.improves:
+            T_last_camera, held = aligned.T_target_source, weak + aligned.information
+        T_last_camera, information = align_surface(
+            cloud, self._last, T_last_camera, held, self.noise, self.settings.fit_m
         )
-        if aligned is None or not aligned.improves:
-            return Step(T_camera_last, weak)
-        return Step(aligned.T_target_source, weak + aligned.information)
+        # From the last camera's frame to this one's, where links are weighed.
+        T_camera_last = poses.inverse(T_last_camera)
+        A = poses.adjoint(T_last_camera)
+        return Step(T_camera_last, A.T @ (held + information) @ A)
 
-    def _distances(self, tree: Any, cloud: FloatArray, step: Step) -> FloatArray:
-        """Return how far each point is from the last cloud, at most twice the fitting distance."""
+    def _gaps(self, cloud: FloatArray, step: Step) -> FloatArray:
+        """Return how far behind or before the last depth image each point (N,) in its view lies.
+
+        At most twice the fitting distance, metres. Unlike distances to the nearest point, these
+        do not favour standing still: the pixels' pattern moves along with the camera.
+        """
+        assert self._last is not None
         moved = poses.transform(poses.inverse(step.T_camera_last), cloud)
-        distance, _ = tree.query(moved, distance_upper_bound=2 * self.settings.fit_m)
-        return np.asarray(np.minimum(distance, 2 * self.settings.fit_m))
+        which, found, _ = self._last.at(moved)
+        gap = np.abs(moved[which, 2] - found[:, 2])
+        return np.asarray(np.minimum(gap, 2 * self.settings.fit_m))
 
-    def _surface_of(self, frame: Frame) -> Surface:
-        stride = self.settings.stride
-        depth = without_edges(frame.depth)[::stride, ::stride]
-        rows, columns = np.nonzero(depth > 0)
-        pixels = np.column_stack([columns, rows]) * float(stride)
-        cloud = frame.intrinsics.backproject(pixels, depth[rows, columns])
-        planes = extract_planes(cloud, self.noise, self.planes) if self.planes.enabled else ()
-        return Surface(cloud, planes)
+    def _planes_of(self, cloud: FloatArray) -> tuple[Plane, ...]:
+        return extract_planes(cloud, self.noise, self.planes) if self.planes.enabled else ()

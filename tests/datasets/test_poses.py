@@ -52,3 +52,11 @@ def test_exponential_is_rigid(step):
 def test_hat_is_the_cross_product(rng):
     a, b = rng.normal(size=(2, 5, 3))
     assert np.allclose((poses.hat(a) @ b[..., None])[..., 0], np.cross(a, b))
+
+
+@given(steps)
+def test_adjoint_carries_steps_through_a_motion(step):
+    T = poses.exponential(np.array([0.3, -0.2, 0.5, 1.0, -2.0, 0.5]))
+    small = 1e-6 * step
+    carried = poses.exponential(poses.adjoint(T) @ small) @ T
+    assert np.allclose(carried, T @ poses.exponential(small), atol=1e-10)

@@ -1,0 +1,124 @@
+"""Aligning a depth image with the one before, point to plane, by projection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from datasets.camera import Intrinsics
+from datasets.frame import Frame
+from slam.noise import SensorNoise
+from slam.view import EDGE_SHARE, without_edges
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """A depth image, thinned: points with the normals of the surface that they lie on.
+
+    Attributes
+    ----------
+    points : (H, W, 3) float64
+        In the camera frame, metres; NaN where there is no reading.
+    normals : (H, W, 3) float64
+        Unit vectors; NaN at edges.
+    intrinsics : Intrinsics
+        Of the full image.
+    stride : int
+        Every n-th row and column of the full image is here.
+    """
+
+    points: FloatArray
+    normals: FloatArray
+    intrinsics: Intrinsics
+    stride: int
+
+    @property
+    def cloud(self) -> FloatArray:
+        """All points (N, 3)."""
+        return np.asarray(self.points[np.isfinite(self.points[..., 2])])
+
+    def at(self, points: FloatArray) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+        """Look points (N, 3) up where they project to.
+
+        Returns
+        -------
+        which : (M,) int
+            Those that fall onto a reading.
+        points, normals : (M, 3) float64
+            What is there.
+        """
+        which = np.flatnonzero(points[:, 2] > 0.1)
+        pixels = self.intrinsics.project(points[which]) / self.stride
+        cells = np.rint(pixels).astype(np.intp)
+        height, width = self.points.shape[:2]
+        inside = np.all((cells >= 0) & (cells < (width, height)), axis=1)
+        which, (columns, rows) = which[inside], cells[inside].T
+        found = self.points[rows, columns]
+        known = np.isfinite(found[:, 2])
+        return which[known], found[known], self.normals[rows, columns][known]
+
+
+def surface_of(frame: Frame, stride: int) -> Surface:
+    """Return the thinned surface of a frame's depth."""
+    depth = without_edges(frame.depth)[::stride, ::stride].astype(np.float64)
+    depth[depth <= 0] = np.nan
+    rows, columns = np.indices(depth.shape)
+    pixels = np.stack([columns, rows], axis=-1).reshape(-1, 2) * float(stride)
+    points = frame.intrinsics.backproject(pixels, depth.ravel()).reshape(*depth.shape, 3)
+    normals = np.full_like(points, np.nan)
+    across = points[1:-1, 2:] - points[1:-1, :-2]
+    down = points[2:, 1:-1] - points[:-2, 1:-1]
+    normal = np.cross(across, down)
+    middle = points[1:-1, 1:-1, 2:]
+    steep = np.maximum(np.abs(across[..., 2:]), np.abs(down[..., 2:])) > 4 * EDGE_SHARE * middle
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    normals[1:-1, 1:-1] = np.where(
+        steep | (length == 0), np.nan, normal / np.maximum(length, 1e-12)
+    )
+    return Surface(points, normals, frame.intrinsics, stride)
+
+
+def align_surface(
+    cloud: FloatArray,
+    target: Surface,
+    T_target_cloud: FloatArray,
+    prior_information: FloatArray,
+    noise: SensorNoise,
+    max_distance_m: float,
+    iterations: int = 10,
+) -> tuple[FloatArray, FloatArray]:
+    """Move a cloud (N, 3) onto a surface, point to plane; pairs are found by projection.
+
+    After Newcombe et al. (KinectFusion, 2011, section 3.5), with Cauchy weights.
+
+    Returns
+    -------
+    T_target_cloud, information : (4, 4), (6, 6) float64
+        The motion, and what the surface alone knows of it, in the target's frame.
+    """
+    T, H = T_target_cloud, np.zeros((6, 6))
+    for _ in range(iterations):
+        moved = poses.transform(T, cloud)
+        which, found, normals = target.at(moved)
+        residual = np.einsum("ni,ni->n", moved[which] - found, normals)
+        near = np.abs(residual) < max_distance_m  # also drops what has no normal
+        if near.sum() < 100:
+            break
+        p, n, r = moved[which][near], normals[near], residual[near]
+        J = np.concatenate([np.cross(p, n), n], axis=1)
+        variance = noise.depth_sigma(p[:, 2]) ** 2
+        # Neighbouring readings err together: count one in ten.
+        weight = 0.1 / variance / (1.0 + r**2 / variance)
+        H = (J * weight[:, None]).T @ J
+        moved_by = poses.logarithm(T @ poses.inverse(T_target_cloud))
+        gradient = (J * weight[:, None]).T @ r + prior_information @ moved_by
+        step = np.asarray(np.linalg.solve(H + prior_information, gradient))
+        T = poses.exponential(-step) @ T
+        if np.abs(step).max() < 1e-5:
+            break
+    return T, H
