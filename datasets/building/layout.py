@@ -21,6 +21,8 @@ SIZES = {
     "elevator_area": ((3.2, 3.6), (3.5, 4.0)),
 }
 DOOR_TO_CORNER_M = 1.3
+# Between the two offices: the topological map tells places of a kind apart by their distance.
+OFFICES_APART_M = (4.7, 5.1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,11 +112,14 @@ class FloorPlan:
 
 
 def plan_floor(rng: np.random.Generator) -> FloorPlan:
-    """Draw up a floor: three rooms on one side of the corridor, two on the other."""
-    order = [str(label) for label in rng.permutation(["office", "office", *_OTHERS])]
+    """Draw up a floor: three rooms on one side of the corridor, two on the other.
+
+    The offices are the first and the last room of the walk, a room and its stores apart.
+    """
+    order = ["office", *(str(label) for label in rng.permutation(_OTHERS)), "office"]
     # Walked in this order: rooms 0, 2, 4 are on one side of the corridor, 1 and 3 on the other.
     width = float(rng.uniform(1.9, 2.1))
-    near, length = _row(rng, order[0::2], 0.0)
+    near, length = _spread(rng, order[0::2])
     gap = float(rng.uniform(0.3, 0.7)) * (length - _row_length(order[1::2]))
     far, far_length = _row(rng, order[1::2], max(0.0, gap))
     length = max(length, far_length)
@@ -141,6 +146,15 @@ def _row(
         spans.append((start, end))
         start = end + WALL_M
     return spans, start - WALL_M
+
+
+def _spread(rng: np.random.Generator, labels: list[str]) -> tuple[list[tuple[float, float]], float]:
+    """Return a row of three rooms, as `_row` does, with `OFFICES_APART_M` between the outer two."""
+    first, middle, last = (float(rng.uniform(*SIZES[label][0])) for label in labels)
+    apart = float(rng.uniform(*OFFICES_APART_M))
+    start = first + WALL_M + float(rng.random()) * (apart - middle - 2 * WALL_M)
+    length = first + apart + last
+    return [(0.0, first), (start, start + middle), (first + apart, length)], length
 
 
 def _assemble(

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from datasets import poses
 from datasets.building import Building, BuildingSettings, build, walk
@@ -81,6 +82,15 @@ def test_offices_of_a_building_look_different():
         ]  # fmt: skip
         means.append(np.mean(seen, axis=0))
     assert np.abs(means[0] - means[1]).max() > 15
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_walks_through_the_two_offices_stay_far_apart(seed):
+    """A topological map opens a second office only more than 5 m from the first."""
+    way = find_way(building(seed)).xy[::5]
+    names = np.array([building(seed).room_at(xy).name for xy in way])
+    nearest, _ = cKDTree(way[names == "office1"]).query(way[names == "office2"])
+    assert nearest.min() > 6.0
 
 
 def test_boxes_and_prisms_face_outwards():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datasets.building.layout import CEILING_M
 from datasets.building.mesh import Image, Material, Stand
 from datasets.building.rooms.site import PIXELS_PER_M, STRIP_M, Site, Style, material, paint
-from datasets.building.textures import bathroom, patterns
+from datasets.building.textures import bathroom, finishes, patterns
 from datasets.building.textures.patterns import Colour
 
 WALLS: tuple[Colour, ...] = ((224, 236, 238), (236, 236, 226), (214, 230, 220), (226, 222, 234))
@@ -13,24 +13,20 @@ BORDERS: tuple[Colour, ...] = ((40, 96, 150), (40, 130, 120), (70, 80, 100), (13
 
 
 def style(site: Site) -> Style:
-    """Return walls of square tiles with a border, and a floor of small tiles."""
+    """Return walls of square tiles with bands of mosaic, and a floor of mosaic."""
     rng = site.rng
     colour, border = patterns.pick(rng, WALLS, 6), patterns.pick(rng, BORDERS)
     height, width = int(CEILING_M * PIXELS_PER_M), int(STRIP_M * PIXELS_PER_M)
-    side = width // int(rng.integers(8, 11))
+    side = width // int(rng.integers(16, 21))
     wall = patterns.tiles(rng, (height, width), (side, side), (colour,), (150, 156, 158))
-    band = patterns.tiles(
-        rng, (side // 2, width), (side // 2, side // 2), (border, colour), (180, 184, 186), 0.5
-    )
-    top = height - 6 * side
-    wall[top : top + side // 2] = band
+    dark = patterns.shift(rng, (60, 66, 76))
+    for z in (0.32, 1.0, 1.62):
+        top = height - int(z * PIXELS_PER_M)
+        wall[top : top + 39] = finishes.mosaic(rng, 39, width, (border, colour, dark))
     wall[: height - int(2.1 * PIXELS_PER_M)] = patterns.plaster(
         rng, height - int(2.1 * PIXELS_PER_M), width, (240, 240, 238)
     )
-    small = int(rng.integers(20, 26))
-    floor = patterns.tiles(
-        rng, (440, 440), (small, small), (border, colour, colour), (110, 114, 118)
-    )
+    floor = finishes.mosaic(rng, 440, 440, (border, colour, colour, dark))
     return Style(wall, material(floor, 220), paint((226, 230, 232)))
 
 

@@ -19,7 +19,7 @@ from datasets.building.rooms.site import (
     material,
     paint,
 )
-from datasets.building.textures import ink, laboratory, office, patterns, signs
+from datasets.building.textures import finishes, ink, laboratory, office, patterns, signs
 
 TITLES = {"office": "OFFICE", "laboratory": "LABORATORY", "kitchen": "KITCHEN", "bathroom": "WC"}
 
@@ -31,7 +31,7 @@ def style(site: Site) -> Style:
     wall = patterns.plaster(rng, height, width, patterns.shift(rng, (236, 232, 220), 6))
     lower = patterns.pick(rng, ((150, 176, 170), (196, 176, 130), (150, 164, 190)))
     rail = height - int(1.0 * PIXELS_PER_M)
-    wall[rail:] = patterns.plaster(rng, height - rail, width, lower)
+    wall[rail:] = finishes.panelling(rng, height - rail, width, lower)
     wall[rail - 12 : rail] = patterns.wood(rng, 12, width, (150, 110, 74))
     wall[-22:] = [int(0.55 * c) for c in lower]
     colour = patterns.pick(rng, ((150, 120, 96), (110, 124, 112), (134, 128, 140)))

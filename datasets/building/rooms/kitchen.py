@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import cv2
 
 from datasets.building.mesh import Image, Material, Stand
-from datasets.building.rooms.site import Site, Style, material, paint, strip
-from datasets.building.textures import ink, kitchen, patterns
+from datasets.building.rooms.site import PIXELS_PER_M, Site, Style, material, paint, strip
+from datasets.building.textures import finishes, ink, kitchen, patterns
 from datasets.building.textures.patterns import Colour
 
 FACES: tuple[Colour, ...] = ((222, 214, 196), (182, 132, 84), (150, 176, 160), (206, 196, 190))
 FLOORS: tuple[Colour, ...] = ((196, 120, 84), (214, 186, 146), (150, 110, 86))
+GLAZES: tuple[Colour, ...] = ((240, 238, 228), (206, 222, 226), (244, 226, 190))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,6 +34,8 @@ def style(site: Site) -> Style:
         rng, (440, 440), (55, 55), (colour, colour, second), (120, 106, 92), 0.25
     )
     wall = strip(site, patterns.pick(rng, ((246, 232, 190), (236, 222, 200), (226, 232, 208)), 6))
+    tiled = int(1.35 * PIXELS_PER_M)
+    wall[-tiled:] = finishes.bricks(rng, tiled, wall.shape[1], (patterns.pick(rng, GLAZES),), 0.2)
     return Style(wall, material(floor, 220), paint((236, 232, 222)))
 
 
@@ -45,7 +48,7 @@ def furnish(site: Site) -> None:
         if rng.random() < 0.5
         else patterns.plaster(rng, 256, 256, colour)
     )
-    front = Front(face, int(rng.integers(3)), bool(rng.random() < 0.6))
+    front = Front(face, int(rng.integers(3)), True)
     splash = _splash(site)
     main, other = ("left", "right") if rng.random() < 0.5 else ("right", "left")
     start = 0.3 if main == "left" else 0.72
@@ -61,13 +64,10 @@ def furnish(site: Site) -> None:
 
 
 def _splash(site: Site) -> Material:
-    """Return the tiles behind the worktop: small, with ornaments."""
+    """Return the tiles behind the worktop, many of them with flowers."""
     rng = site.rng
-    colours: tuple[Colour, ...] = (
-        patterns.pick(rng, ((240, 238, 228), (206, 222, 226), (244, 226, 190))),
-    )
-    side = int(rng.integers(26, 36))
-    return material(patterns.tiles(rng, (170, 420), (side, side), colours, (150, 146, 138), 0.45))
+    colours: tuple[Colour, ...] = (patterns.pick(rng, GLAZES),)
+    return material(finishes.bricks(rng, 140, 420, colours, 0.4))
 
 
 def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash: Material) -> None:
@@ -81,7 +81,9 @@ def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash:
     _base_units(site, stand, length, count, front, {special: oven})
     for i in range(count):
         if i != special:
-            leaf = Material(kitchen.cupboard(front.face[:180, :150], front.handle, front.panel))
+            leaf = Material(
+                kitchen.cupboard(rng, front.face[:180, :150], front.handle, front.panel)
+            )
             span = (i * unit, (i + 1) * unit)
             stand.box(span, (0, 0.34), (1.42, 2.10), material(front.face), front=leaf)
     stand.wall((0, length), (0.90, 1.42), 0.006, splash)
@@ -114,7 +116,7 @@ def _base_units(
         elif rng.random() < 0.35:
             picture = Material(kitchen.drawers(face, 3))
         else:
-            picture = Material(kitchen.cupboard(face, front.handle, front.panel))
+            picture = Material(kitchen.cupboard(rng, face, front.handle, front.panel))
         span = (i * unit, (i + 1) * unit)
         stand.box(span, (0, 0.58), (0.10, 0.86), material(front.face), front=picture)
     stand.box((0, length), (0, 0.54), (0, 0.10), paint((50, 48, 46)))

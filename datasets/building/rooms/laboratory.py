@@ -3,19 +3,39 @@
 from __future__ import annotations
 
 from datasets.building.mesh import Material, Stand
-from datasets.building.rooms.site import SCREEN_GLOW, Site, Style, material, paint, strip
-from datasets.building.textures import ink, instruments, kitchen, laboratory, office, patterns
+from datasets.building.rooms.site import (
+    PIXELS_PER_M,
+    SCREEN_GLOW,
+    Site,
+    Style,
+    material,
+    paint,
+    strip,
+)
+from datasets.building.textures import (
+    finishes,
+    ink,
+    instruments,
+    kitchen,
+    laboratory,
+    office,
+    patterns,
+)
 from datasets.building.textures.patterns import Colour
 
 BENCHES: tuple[Colour, ...] = ((196, 204, 206), (150, 166, 180), (206, 200, 180))
+PEGS: tuple[Colour, ...] = ((206, 196, 170), (176, 186, 192))
 
 
 def style(site: Site) -> Style:
     """Return pale painted walls over linoleum."""
     rng = site.rng
     colour = patterns.pick(rng, ((120, 146, 150), (140, 150, 130), (126, 132, 150)))
-    floor = material(patterns.linoleum(rng, 440, 440, colour), 220)
+    floor = material(finishes.studs(rng, 440, 440, colour), 220)
     wall = strip(site, patterns.pick(rng, ((228, 234, 234), (226, 230, 222)), 5))
+    # Perforated sheet from the benches to the height of a hand.
+    low, high = (len(wall) - int(z * PIXELS_PER_M) for z in (0.35, 1.35))
+    wall[high:low] = finishes.perforated(rng, low - high, wall.shape[1], patterns.pick(rng, PEGS))
     return Style(wall, floor, paint((160, 170, 176)))
 
 
@@ -104,7 +124,7 @@ def _rack_side(site: Site, stand: Stand, length: float) -> None:
         picture = Material(laboratory.pegboard(rng, 200, int(260 * board)))
         stand.picture((x + 0.05, x + 0.05 + board), (1.0, 1.78), 0.015, picture)
         cabinet = Material(
-            kitchen.cupboard(patterns.plaster(rng, 180, 160, (196, 180, 60)), 0, False)
+            kitchen.cupboard(rng, patterns.plaster(rng, 180, 160, (196, 180, 60)), 0, False)
         )
         stand.box(
             (x + 0.1, x + min(0.7, board)),

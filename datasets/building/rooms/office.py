@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from datasets.building.mesh import Image, Material, Stand
 from datasets.building.rooms.site import SCREEN_GLOW, Site, Style, material, paint, strip
-from datasets.building.textures import ink, kitchen, office, patterns
+from datasets.building.textures import finishes, ink, kitchen, office, patterns
 from datasets.building.textures.patterns import Colour
 
 
@@ -17,7 +17,6 @@ class Theme:
     wood: Colour
     wall: Colour
     floor: Colour
-    carpeted: bool
     books: tuple[Colour, ...]
     chair: Colour
 
@@ -44,10 +43,10 @@ GREEN: tuple[Colour, ...] = (
     (40, 60, 50),
 )
 THEMES = (
-    Theme((156, 104, 60), (230, 222, 204), (158, 112, 70), False, WARM, (60, 44, 40)),
-    Theme((206, 178, 136), (208, 218, 226), (86, 100, 124), True, COOL, (40, 56, 100)),
-    Theme((98, 66, 46), (222, 226, 206), (120, 124, 100), True, GREEN, (40, 80, 56)),
-    Theme((222, 214, 200), (234, 214, 196), (186, 150, 108), False, ink.VIVID, (150, 44, 40)),
+    Theme((156, 104, 60), (230, 222, 204), (158, 112, 70), WARM, (60, 44, 40)),
+    Theme((206, 178, 136), (208, 218, 226), (86, 100, 124), COOL, (40, 56, 100)),
+    Theme((98, 66, 46), (222, 226, 206), (120, 124, 100), GREEN, (40, 80, 56)),
+    Theme((222, 214, 200), (234, 214, 196), (186, 150, 108), ink.VIVID, (150, 44, 40)),
 )
 
 
@@ -58,13 +57,10 @@ def theme(site: Site, seed: int) -> Theme:
 
 
 def style(site: Site, look: Theme) -> Style:
-    """Return painted walls over a floor of planks or carpet."""
+    """Return painted walls over carpet in squares."""
     rng = site.rng
     colour = patterns.shift(rng, look.floor, 8)
-    if look.carpeted:
-        floor = material(patterns.carpet(rng, 400, 400, colour), 220)
-    else:
-        floor = material(patterns.planks(rng, 440, 440, colour, 34), 220)
+    floor = material(finishes.dashes(rng, 440, 440, colour), 220)
     frame = material(patterns.wood(rng, 200, 480, look.wood))
     return Style(strip(site, patterns.shift(rng, look.wall, 6)), floor, frame)
 
@@ -153,7 +149,7 @@ def _shelf(site: Site, stand: Stand, width: float, wood: Material, look: Theme) 
 
 def _cabinet(site: Site, stand: Stand, wood: Material) -> None:
     """Place a low cabinet with a printer on it."""
-    leaf = Material(kitchen.cupboard(wood.image[:180, :200], 0, False))
+    leaf = Material(kitchen.cupboard(site.rng, wood.image[:180, :200], 0, False))
     stand.box((0, 0.75), (0, 0.45), (0, 0.72), wood, front=leaf)
     grey = paint((206, 206, 202))
     panel = patterns.plain(70, 120, (200, 200, 196))

@@ -12,7 +12,7 @@ from datasets.building.mesh import Glow, Image, Material, Stand, Surfaces
 from datasets.building.textures import patterns, signs
 
 PIXELS_PER_M = 256
-STRIP_M = 1.6
+STRIP_M = 3.2
 SCREEN_GLOW: Glow = (0.4, 0.0, 1.0, 0.9)
 SIGN_GLOW: Glow = (0.4, 0.2, 1.0, 0.8)
 WINDOW_GLOW: Glow = (1.25, 0.0, 0.04, 0.05)

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 
 from datasets.building.mesh import Image
+from datasets.building.textures.finishes import louvres
 from datasets.building.textures.ink import lines, sheet, write
 from datasets.building.textures.patterns import Colour, Generator, noise, pick, plain, steel, tint
 
@@ -62,6 +63,10 @@ def partition(rng: Generator, height: int, width: int, colour: Colour) -> Image:
     """Draw the door of a stall with its lock, hinges, a pictogram and a notice."""
     value = 0.04 * noise(rng, height, width, (30, 30)) + 0.16 * noise(rng, height, width, (4, 4))
     image = tint(colour, value)
+    for top, bottom in ((0.04, 0.14), (0.64, 0.94)):
+        vent = louvres(rng, int((bottom - top) * height), int(0.8 * width), colour)
+        at = int(top * height)
+        image[at : at + vent.shape[0], width // 10 : width // 10 + vent.shape[1]] = vent
     notice = sheet(rng, int(0.2 * height), int(0.42 * width))
     top, left = int(0.40 * height), int(0.22 * width)
     image[top : top + notice.shape[0], left : left + notice.shape[1]] = notice

@@ -6,8 +6,9 @@ import cv2
 import numpy as np
 
 from datasets.building.mesh import Image
+from datasets.building.textures.finishes import perforated
 from datasets.building.textures.ink import VIVID, lines, write
-from datasets.building.textures.patterns import Colour, Generator, pick, plain
+from datasets.building.textures.patterns import Colour, Generator, pick, plain, shift
 
 ELEMENTS = (
     "H", "He", "Li", "Be", "B", "C", "N", "O", "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S",
@@ -36,6 +37,8 @@ def bench_unit(rng: Generator, height: int, width: int, colour: Colour) -> Image
         lock = int(0.85 * width), top + 18
         cv2.circle(image, lock, 6, (180, 184, 186), -1, cv2.LINE_AA)
         cv2.line(image, (lock[0], lock[1] - 3), (lock[0], lock[1] + 3), (30, 30, 32), 2)
+    vent = perforated(rng, foot // 2 - 40, width - 24, shift(rng, colour, 14))
+    image[foot - vent.shape[0] - 6 : foot - 6, 12 : width - 12] = vent
     for x in range(-height // 12, width, 18):
         corners = np.array([(x, height), (x + 9, height), (x + 22, foot + 2), (x + 13, foot + 2)])
         cv2.fillConvexPoly(image, corners.astype(np.int32), (236, 190, 30), cv2.LINE_AA)
