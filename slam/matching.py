@@ -69,6 +69,11 @@ def near(
     predicted: NDArray[np.float64], pixels: NDArray[np.float64], radius: float
 ) -> NDArray[np.bool_]:
     """Return which pixels (M, 2) lie within `radius` of which predicted positions (N, 2)."""
-    x = np.abs(np.subtract.outer(predicted[:, 0], pixels[:, 0]))
-    y = np.abs(np.subtract.outer(predicted[:, 1], pixels[:, 1]))
-    return np.asarray((x < radius) & (y < radius))
+    allowed = np.ones((len(predicted), len(pixels)), dtype=bool)
+    gap = np.empty(allowed.shape, dtype=np.float32)
+    for axis in (0, 1):
+        np.subtract.outer(
+            predicted[:, axis].astype(np.float32), pixels[:, axis].astype(np.float32), out=gap
+        )
+        allowed &= np.abs(gap, out=gap) < radius
+    return allowed

@@ -11,6 +11,7 @@ import pytest
 
 from app.main import main
 from app.run_folder import RunFolder
+from datasets.open import open_sequence
 from datasets.trajectory import read_kitti, read_tum
 from semantics.graph_io import read_graph_json
 from tests.check_run import problems
@@ -142,6 +143,26 @@ def test_inputs_that_are_none(tmp_path, monkeypatch, capsys):
     assert "--light" in _fails(
         monkeypatch, capsys, "synth", "-o", tmp_path / "s", "--light", "noon"
     )
+
+
+def test_synth_writes_what_run_reads(tmp_path, monkeypatch):
+    walk = tmp_path / "walk"
+    size = ("--width", "160", "--height", "120")
+    arguments = ("synth", "-o", walk, "--seed", "5", "--frames", "3", "--light", "night", *size)
+    assert roomgraph(monkeypatch, *arguments, "--quiet") == 0
+    assert len(open_sequence(walk)) == 3
+    assert roomgraph(monkeypatch, *arguments, "--quiet") == 1
+    assert roomgraph(monkeypatch, *arguments, "--quiet", "--overwrite") == 0
+
+
+def test_missing_parts_of_a_sequence(rendered_walk, tmp_path, monkeypatch, capsys):
+    broken = tmp_path / "walk"
+    shutil.copytree(rendered_walk, broken)
+    (broken / "camera.json").unlink()
+    assert "camera unknown" in _fails(monkeypatch, capsys, "run", broken, "-o", tmp_path / "o")
+    (broken / "depth.txt").unlink()
+    assert "depth.txt" in _fails(monkeypatch, capsys, "run", broken, "-o", tmp_path / "o")
+    assert not (tmp_path / "o").exists()
 
 
 def test_outputs_are_not_overwritten_unasked(mapped, rendered_walk, tmp_path, monkeypatch, capsys):
