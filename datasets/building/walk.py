@@ -28,6 +28,8 @@ ROUND_M = (1.2, 1.4)
 SPACING_M = 0.5
 SAMPLE_M = 0.01
 HEADING_SMOOTHING_M = 0.85
+# The camera turns this much later than the way does: it looks at a room until it has left it.
+HEADING_LAG_M = 0.5
 SPEED_SMOOTHING_M = 0.12
 
 
@@ -121,7 +123,8 @@ def _heading(xy: FloatArray) -> FloatArray:
     trend = np.linspace(0, turns, len(tangent), endpoint=False)
     level = gaussian_filter1d(tangent - trend, HEADING_SMOOTHING_M / SAMPLE_M, mode="wrap")
     level += np.deg2rad(5) * np.sin(np.arange(len(level)) / len(level) * 2 * np.pi * 23)
-    heading = level + trend
+    lag = round(HEADING_LAG_M / SAMPLE_M)
+    heading = np.roll(level, lag) + trend - turns * lag / len(level)
     return np.append(heading, heading[0] + turns)
 
 

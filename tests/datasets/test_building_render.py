@@ -59,6 +59,7 @@ def test_depth_of_a_tilted_view_of_the_ceiling(building, renderer):
 def test_exact_depth_lands_on_the_shell_or_inside(building, renderer, trajectory):
     u, v = np.meshgrid(np.arange(SMALL.width), np.arange(SMALL.height))
     pixels = np.column_stack([u.ravel(), v.ravel()]).astype(float)
+    shares = []
     for index in range(0, len(trajectory), 200):
         T = trajectory.T_world_camera[index]
         depth = renderer.render(T, noise=0).depth.ravel()
@@ -78,7 +79,10 @@ def test_exact_depth_lands_on_the_shell_or_inside(building, renderer, trajectory
                 world[:, 1] - r.y1,
             ]
         on_shell = np.min(np.abs(planes), axis=0) < 0.002
-        assert on_shell.mean() > 0.25
+        shares.append(on_shell.mean())
+    # A view of furniture alone may see little of the shell.
+    assert min(shares) > 0.05
+    assert np.mean(shares) > 0.25
 
 
 def test_one_cast_gives_the_same_as_lights_alone(renderer, trajectory):

@@ -19,7 +19,7 @@ from datasets.building.rooms.site import (
     material,
     paint,
 )
-from datasets.building.textures import finishes, ink, laboratory, office, patterns, signs
+from datasets.building.textures import finishes, ink, laboratory, patterns, signs
 
 TITLES = {"office": "OFFICE", "laboratory": "LABORATORY", "kitchen": "KITCHEN", "bathroom": "WC"}
 
@@ -94,8 +94,8 @@ def _stretch(
             stand.picture((x, x + 0.95), (0.0, 2.05), 0.02, Material(leaf))
             x += 1.2
         elif kind == 1 and end - x > 1.1:
-            board = Material(office.pinboard(rng, 220, 280))
-            stand.picture((x, x + 1.05), (1.05, 1.87), 0.02, board)
+            painting = Material(ink.framed(ink.photo(rng, 220, 280), (120, 88, 44), 8))
+            stand.picture((x, x + 1.05), (1.12, 1.9), 0.02, painting)
             x += 1.2
         elif kind == 2 and end - x > 1.0:
             ribs = Material(signs.radiator(150, 230))

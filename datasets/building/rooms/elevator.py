@@ -13,7 +13,7 @@ from datasets.building.rooms.site import (
     material,
     paint,
 )
-from datasets.building.textures import ink, patterns, signs
+from datasets.building.textures import finishes, ink, patterns, signs
 from datasets.building.textures.patterns import Colour
 
 STONES: tuple[Colour, ...] = ((170, 160, 150), (150, 150, 154), (186, 170, 150))
@@ -24,11 +24,11 @@ def style(site: Site) -> Style:
     rng = site.rng
     height, width = int(CEILING_M * PIXELS_PER_M), int(STRIP_M * PIXELS_PER_M)
     wall = patterns.plaster(rng, height, width, patterns.shift(rng, (226, 222, 214), 6))
-    rail = height - int(0.9 * PIXELS_PER_M)
+    rail = height - int(1.3 * PIXELS_PER_M)
     colour = patterns.pick(rng, STONES)
-    wall[rail:] = patterns.stone(rng, height - rail, width, colour, width // 2)
+    wall[rail:] = finishes.terrazzo(rng, height - rail, width, colour, width // 4)
     wall[rail - 8 : rail] = (120, 116, 110)
-    floor = material(patterns.stone(rng, 528, 528, patterns.pick(rng, STONES), 132), 220)
+    floor = material(finishes.terrazzo(rng, 528, 528, patterns.pick(rng, STONES), 132), 220)
     return Style(wall, floor, material(patterns.stone(rng, 200, 480, colour, 1000)))
 
 

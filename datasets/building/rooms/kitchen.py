@@ -22,7 +22,6 @@ class Front:
 
     face: Image
     handle: int
-    panel: bool
 
 
 def style(site: Site) -> Style:
@@ -48,7 +47,7 @@ def furnish(site: Site) -> None:
         if rng.random() < 0.5
         else patterns.plaster(rng, 256, 256, colour)
     )
-    front = Front(face, int(rng.integers(3)), True)
+    front = Front(face, int(rng.integers(3)))
     splash = _splash(site)
     main, other = ("left", "right") if rng.random() < 0.5 else ("right", "left")
     start = 0.3 if main == "left" else 0.72
@@ -81,9 +80,7 @@ def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash:
     _base_units(site, stand, length, count, front, {special: oven})
     for i in range(count):
         if i != special:
-            leaf = Material(
-                kitchen.cupboard(rng, front.face[:180, :150], front.handle, front.panel)
-            )
+            leaf = Material(kitchen.cupboard(rng, front.face[:180, :150], front.handle))
             span = (i * unit, (i + 1) * unit)
             stand.box(span, (0, 0.34), (1.42, 2.10), material(front.face), front=leaf)
     stand.wall((0, length), (0.90, 1.42), 0.006, splash)
@@ -116,7 +113,7 @@ def _base_units(
         elif rng.random() < 0.35:
             picture = Material(kitchen.drawers(face, 3))
         else:
-            picture = Material(kitchen.cupboard(rng, face, front.handle, front.panel))
+            picture = Material(kitchen.cupboard(rng, face, front.handle))
         span = (i * unit, (i + 1) * unit)
         stand.box(span, (0, 0.58), (0.10, 0.86), material(front.face), front=picture)
     stand.box((0, length), (0, 0.54), (0, 0.10), paint((50, 48, 46)))

@@ -124,7 +124,7 @@ def _rack_side(site: Site, stand: Stand, length: float) -> None:
         picture = Material(laboratory.pegboard(rng, 200, int(260 * board)))
         stand.picture((x + 0.05, x + 0.05 + board), (1.0, 1.78), 0.015, picture)
         cabinet = Material(
-            kitchen.cupboard(rng, patterns.plaster(rng, 180, 160, (196, 180, 60)), 0, False)
+            kitchen.cupboard(rng, patterns.plaster(rng, 180, 160, (196, 180, 60)), 0)
         )
         stand.box(
             (x + 0.1, x + min(0.7, board)),

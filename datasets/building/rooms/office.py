@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from datasets.building.mesh import Image, Material, Stand
-from datasets.building.rooms.site import SCREEN_GLOW, Site, Style, material, paint, strip
+from datasets.building.rooms.site import (
+    PIXELS_PER_M,
+    SCREEN_GLOW,
+    Site,
+    Style,
+    material,
+    paint,
+    strip,
+)
 from datasets.building.textures import finishes, ink, kitchen, office, patterns
 from datasets.building.textures.patterns import Colour
 
@@ -17,6 +25,7 @@ class Theme:
     wood: Colour
     wall: Colour
     floor: Colour
+    panel: Colour
     books: tuple[Colour, ...]
     chair: Colour
 
@@ -43,10 +52,12 @@ GREEN: tuple[Colour, ...] = (
     (40, 60, 50),
 )
 THEMES = (
-    Theme((156, 104, 60), (230, 222, 204), (158, 112, 70), WARM, (60, 44, 40)),
-    Theme((206, 178, 136), (208, 218, 226), (86, 100, 124), COOL, (40, 56, 100)),
-    Theme((98, 66, 46), (222, 226, 206), (120, 124, 100), GREEN, (40, 80, 56)),
-    Theme((222, 214, 200), (234, 214, 196), (186, 150, 108), ink.VIVID, (150, 44, 40)),
+    Theme((156, 104, 60), (230, 222, 204), (158, 112, 70), (170, 150, 120), WARM, (60, 44, 40)),
+    Theme((206, 178, 136), (208, 218, 226), (86, 100, 124), (130, 146, 164), COOL, (40, 56, 100)),
+    Theme((98, 66, 46), (222, 226, 206), (120, 124, 100), (150, 160, 124), GREEN, (40, 80, 56)),
+    Theme(
+        (222, 214, 200), (234, 214, 196), (186, 150, 108), (176, 140, 120), ink.VIVID, (150, 44, 40)
+    ),
 )
 
 
@@ -62,7 +73,12 @@ def style(site: Site, look: Theme) -> Style:
     colour = patterns.shift(rng, look.floor, 8)
     floor = material(finishes.dashes(rng, 440, 440, colour), 220)
     frame = material(patterns.wood(rng, 200, 480, look.wood))
-    return Style(strip(site, patterns.shift(rng, look.wall, 6)), floor, frame)
+    wall = strip(site, patterns.shift(rng, look.wall, 6))
+    # Woven panels that swallow sound, under a rail.
+    high, low = (len(wall) - int(z * PIXELS_PER_M) for z in (1.05, 0.1))
+    wall[high:low] = finishes.dashes(rng, low - high, wall.shape[1], look.panel)
+    wall[high - 8 : high] = look.wood
+    return Style(wall, floor, frame)
 
 
 def furnish(site: Site, look: Theme) -> None:
@@ -149,7 +165,7 @@ def _shelf(site: Site, stand: Stand, width: float, wood: Material, look: Theme) 
 
 def _cabinet(site: Site, stand: Stand, wood: Material) -> None:
     """Place a low cabinet with a printer on it."""
-    leaf = Material(kitchen.cupboard(site.rng, wood.image[:180, :200], 0, False))
+    leaf = Material(kitchen.cupboard(site.rng, wood.image[:180, :200], 0))
     stand.box((0, 0.75), (0, 0.45), (0, 0.72), wood, front=leaf)
     grey = paint((206, 206, 202))
     panel = patterns.plain(70, 120, (200, 200, 196))

@@ -63,7 +63,7 @@ def partition(rng: Generator, height: int, width: int, colour: Colour) -> Image:
     """Draw the door of a stall with its lock, hinges, a pictogram and a notice."""
     value = 0.04 * noise(rng, height, width, (30, 30)) + 0.16 * noise(rng, height, width, (4, 4))
     image = tint(colour, value)
-    for top, bottom in ((0.04, 0.14), (0.64, 0.94)):
+    for top, bottom in ((0.04, 0.14), (0.61, 0.95)):
         vent = louvres(rng, int((bottom - top) * height), int(0.8 * width), colour)
         at = int(top * height)
         image[at : at + vent.shape[0], width // 10 : width // 10 + vent.shape[1]] = vent

@@ -113,13 +113,48 @@ def cane(rng: Generator, height: int, width: int, colour: Colour) -> Image:
 
 
 def louvres(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    """Draw slats, one over the other, between two posts."""
-    image = plain(height, width, colour)
-    for top in range(4, height - 9, 13):
-        dark, light = (tuple(int(f * c) for c in shift(rng, colour, 10)) for f in (0.4, 1.0))
-        begin, end = int(rng.integers(5, 9)), width - int(rng.integers(6, 10))
-        cv2.rectangle(image, (begin, top), (end, top + 8), light, -1)
-        cv2.rectangle(image, (begin, top + 8), (end, top + 11), dark, -1)
+    """Draw a metal sheet with columns of air slots, each with a lip, and rivets between."""
+    image = tint(colour, 0.05 * noise(rng, height, width, (40, 40)))
+    pitch = width // max(1, width // 34)
+    for row, top in enumerate(range(4, height - 9, 13)):
+        for left in range(0, width - pitch + 1, pitch):
+            dark, light = (
+                tuple(int(min(255, f * c)) for c in shift(rng, colour, 10)) for f in (0.3, 1.35)
+            )
+            if row % 4 == 3:
+                cv2.circle(image, (left + pitch // 2, top + 4), 3, light, -1, cv2.LINE_AA)
+                continue
+            begin, end = left + int(rng.integers(3, 6)), left + pitch - int(rng.integers(4, 7))
+            cv2.rectangle(image, (begin, top), (end, top + 3), light, -1)
+            cv2.rectangle(image, (begin, top + 3), (end, top + 8), dark, -1)
+    return image
+
+
+def tread(rng: Generator, height: int, width: int, metal: Image) -> Image:
+    """Emboss a sheet of metal with lozenges that lie this way and that."""
+    image = metal.copy()
+    pitch = 19
+    for row, y in enumerate(range(pitch // 2, height, pitch)):
+        for column, x in enumerate(range(pitch // 2, width, pitch)):
+            angle = (45 if (row + column) % 2 else 135) + int(rng.integers(-8, 9))
+            dark, light = shift(rng, (92, 96, 102), 14), shift(rng, (226, 230, 234), 14)
+            cv2.ellipse(image, (x + 1, y + 2), (9, 3), angle, 0, 360, dark, -1, cv2.LINE_AA)
+            cv2.ellipse(image, (x, y), (8, 2), angle, 0, 360, light, -1, cv2.LINE_AA)
+    return image
+
+
+def terrazzo(rng: Generator, height: int, width: int, colour: Colour, slab: int) -> Image:
+    """Draw slabs of terrazzo: angular chips of several stones, close together, and joints."""
+    image = tint(colour, 0.15 * noise(rng, height, width, (60, 60)))
+    palette: tuple[Colour, ...] = ((62, 58, 58), (236, 230, 218), (150, 92, 72), (104, 112, 116))
+    for _ in range(height * width // 130):
+        around = rng.integers(-6, 7, (5, 2)) * float(rng.uniform(0.4, 1.2))
+        chip = cv2.convexHull((around + rng.integers(0, (width, height))).astype(np.int32))
+        cv2.fillConvexPoly(image, chip, pick(rng, palette, 20), cv2.LINE_AA)
+    for edge in range(0, height, slab):
+        cv2.line(image, (0, edge), (width, edge), (85, 82, 80), 2)
+    for edge in range(0, width, slab):
+        cv2.line(image, (edge, 0), (edge, height), (85, 82, 80), 2)
     return image
 
 

@@ -19,18 +19,17 @@ from datasets.building.textures.patterns import (
 )
 
 
-def cupboard(rng: Generator, face: Image, handle: int, panel: bool) -> Image:
+def cupboard(rng: Generator, face: Image, handle: int) -> Image:
     """Draw a cupboard's door: a panel of cane, its handle (0 bar, 1 knob, 2 across)."""
     image = face.copy()
     height, width = image.shape[:2]
     cv2.rectangle(image, (1, 1), (width - 2, height - 2), (70, 60, 50), 2)
-    if panel:
-        inset = max(10, width // 7)
-        box = (inset, inset), (width - inset, height - inset)
-        web = cane(rng, height - 2 * inset, width - 2 * inset, (206, 176, 124))
-        image[inset : height - inset, inset : width - inset] = web
-        cv2.rectangle(image, *box, (96, 84, 70), 3)
-        cv2.rectangle(image, (inset + 3, inset + 3), box[1], (236, 230, 220), 1)
+    inset = max(10, width // 7)
+    box = (inset, inset), (width - inset, height - inset)
+    web = cane(rng, height - 2 * inset, width - 2 * inset, (206, 176, 124))
+    image[inset : height - inset, inset : width - inset] = web
+    cv2.rectangle(image, *box, (96, 84, 70), 3)
+    cv2.rectangle(image, (inset + 3, inset + 3), box[1], (236, 230, 220), 1)
     steel_colour = (190, 192, 196)
     x, y = int(width * 0.86), height // 4
     if handle == 0:

@@ -69,39 +69,6 @@ def wood(rng: Generator, height: int, width: int, colour: Colour, contrast: floa
     return tint(colour, contrast * value)
 
 
-def planks(rng: Generator, height: int, width: int, colour: Colour, plank: int) -> Image:
-    """Draw a wooden floor of planks along the width."""
-    image = wood(rng, height, width, colour)
-    for top in range(0, height, plank):
-        start = -int(rng.integers(width // 2))
-        while start < width:
-            end = start + int(rng.integers(width // 3, width // 2 + 2))
-            board = image[top : top + plank, max(start, 0) : max(end, 0)]
-            board[:] = np.clip(board * rng.uniform(0.82, 1.12), 0, 255)
-            cv2.line(image, (end, top), (end, top + plank), (60, 45, 32), 1)
-            start = end
-        cv2.line(image, (0, top), (width, top), (60, 45, 32), 1)
-    return image
-
-
-def carpet(rng: Generator, height: int, width: int, colour: Colour) -> Image:
-    """Draw a carpet of loops in squares with their pile laid this way and that."""
-    value = 0.35 * noise(rng, height, width, (3, 3)) + 0.25 * noise(rng, height, width, (7, 7))
-    side = width // 2
-    for top in range(0, height, side):
-        for left in range(0, width, side):
-            stripes = 0.05 * np.sin(np.arange(side, dtype=np.float32) * 0.9)
-            along = (top + left) // side % 2
-            cell = value[top : top + side, left : left + side]
-            pile = stripes[:, None] if along else stripes[None, :]
-            cell += pile[: cell.shape[0], : cell.shape[1]] + float(rng.uniform(-0.05, 0.05))
-    image = tint(colour, value)
-    for _ in range(height * width // 9000):
-        centre = int(rng.integers(width)), int(rng.integers(height))
-        cv2.circle(image, centre, 2, pick(rng, (colour, (200, 200, 190))), -1, cv2.LINE_AA)
-    return image
-
-
 def tiles(
     rng: Generator,
     shape: tuple[int, int],

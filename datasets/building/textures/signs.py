@@ -7,6 +7,7 @@ import numpy as np
 
 from datasets.building.mesh import Image
 from datasets.building.textures.bathroom import person
+from datasets.building.textures.finishes import tread
 from datasets.building.textures.ink import VIVID, lines, word, write
 from datasets.building.textures.patterns import Colour, Generator, noise, pick, plain, steel, tint
 
@@ -111,7 +112,7 @@ def evacuation_plan(rng: Generator, height: int, width: int) -> Image:
 
 def elevator_door(rng: Generator, height: int, width: int) -> Image:
     """Two leaves of brushed steel with a seam, notices and a sill."""
-    image = steel(rng, height, width, (168, 172, 178))
+    image = tread(rng, height, width, steel(rng, height, width, (168, 172, 178)))
     cv2.line(image, (width // 2, 0), (width // 2, height), (30, 32, 34), 5)
     for x in (width // 4, 3 * width // 4):
         cv2.line(image, (x, 0), (x, height), (130, 134, 140), 2)
