@@ -58,7 +58,7 @@ def cached(lights: tuple[Light, ...], settings: BuildingSettings, terminal: Term
     if missing:
         render(missing, settings, terminal)
     else:
-        terminal.say(f"[dim]Building {settings.seed} ({', '.join(lights)}) from {root}")
+        terminal.say(f"Building {settings.seed} ({', '.join(lights)}) from {root}", dim=True)
     return list(directories.values())
 
 

@@ -60,6 +60,10 @@ def _guarded(command: Callable[..., None]) -> Callable[..., None]:
         except RoomgraphError as error:
             typer.echo(f"roomgraph: {error}", err=True)
             raise typer.Exit(EXIT_FAILURE) from error
+        except OSError as error:
+            where = f": {error.filename}" if error.filename else ""
+            typer.echo(f"roomgraph: {error.strerror or error}{where}", err=True)
+            raise typer.Exit(EXIT_FAILURE) from error
         except KeyboardInterrupt as error:
             typer.echo("roomgraph: interrupted; what was done so far is on disk", err=True)
             raise typer.Exit(EXIT_INTERRUPTED) from error

@@ -109,16 +109,10 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
         _comment(lines, part, inner)
 
 
-def seeded(settings: AppSettings) -> AppSettings:
-    """Hand the one seed down to every module that draws random samples."""
-    slam = settings.slam
-    return settings.model_copy(update={"slam": slam.model_copy(update={
-        "motion": slam.motion.model_copy(update={"seed": settings.seed}),
-        "planes": slam.planes.model_copy(update={"seed": settings.seed}),
-    })})  # fmt: skip
-
-
 def _set(values: dict[str, Any], names: list[str], value: Any) -> None:
+    table: Any = values
     for name in names[:-1]:
-        values = values.setdefault(name, {})
-    values[names[-1]] = value
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            return  # validation says that a table was expected
+    table[names[-1]] = value

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rich.console import Console, RenderableType
+from rich.markup import escape
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -29,9 +30,9 @@ class Terminal:
         self.console = Console(quiet=quiet, highlight=False)
         self.verbose = verbose
 
-    def say(self, text: RenderableType) -> None:
-        """Print a line, or a table."""
-        self.console.print(text)
+    def say(self, text: RenderableType, dim: bool = False) -> None:
+        """Print a line as it is, however long, or a table."""
+        self.console.print(text, style="dim" if dim else None, markup=False, soft_wrap=True)
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Advance]:
@@ -41,10 +42,10 @@ class Terminal:
             MofNCompleteColumn(), TimeRemainingColumn(), TextColumn("[dim]{task.fields[remark]}"),
         )  # fmt: skip
         with Progress(*columns, console=self.console) as bar:
-            task = bar.add_task(title, total=None, remark="")
+            task = bar.add_task(escape(title), total=None, remark="")
 
             def advance(done: int, total: int, remark: str = "") -> None:
-                bar.update(task, completed=done, total=total, remark=remark)
+                bar.update(task, completed=done, total=total, remark=escape(remark))
 
             yield advance
 

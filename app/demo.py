@@ -9,7 +9,7 @@ from typing import Any
 from app.buildings import building_settings, cached
 from app.config import AppSettings
 from app.console import Terminal
-from app.run_folder import RunFolder, clear_output
+from app.run_folder import RUN_MARKS, RunFolder, clear_output
 from app.session import Showing, map_sequence
 from app.training import train_model
 from datasets.open import open_sequence
@@ -27,7 +27,7 @@ def run_demo(
     Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
     """
     if output is not None:
-        clear_output(output, overwrite, "config.toml")
+        clear_output(output, overwrite, RUN_MARKS)
     known = building_settings(seed=2 * settings.seed)
     strange = building_settings(seed=2 * settings.seed + 1)
     lessons = cached(("day", "night"), known, terminal)
@@ -35,7 +35,8 @@ def run_demo(
     with TemporaryDirectory() as scratch:
         model = train_model(lessons, Path(scratch) / "model", settings, False, terminal)
     terminal.say(
-        f"[dim]Learned from {sum(model.training['images'].values())} images; "
-        f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits"
+        f"Learned from {sum(model.training['images'].values())} images; "
+        f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
+        dim=True,
     )
     return map_sequence(open_sequence(sequence), settings, model, output, False, showing, terminal)

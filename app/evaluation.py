@@ -8,7 +8,7 @@ from typing import Any
 
 from app.errors import AppError
 from app.metrics import place_metrics, trajectory_metrics
-from app.run_folder import RunFolder
+from app.run_folder import UNREAD, RunFolder
 from datasets import poses
 from datasets.files import replacing
 from datasets.open import open_sequence
@@ -42,9 +42,11 @@ def evaluate_run(
     found: dict[str, Any] = {}
     if truth is not None:
         found |= trajectory_metrics(estimate, truth)
-    if rooms is not None:
-        frames = [(float(row["timestamp"]), row["label"]) for row in folder.read_frames()]
-        found |= place_metrics(read_graph_json(folder.graph_json), frames, rooms)
+    graph = read_graph_json(folder.graph_json)
+    if rooms is not None and len(graph.labels) > 1:
+        rows = [row for row in folder.read_frames() if row["method"] != UNREAD]
+        frames = [(float(row["timestamp"]), row["label"]) for row in rows]
+        found |= place_metrics(graph, frames, rooms)
     if not found:
         raise AppError(
             "no ground truth to compare with", where=folder.root,
@@ -60,6 +62,8 @@ def draw(path: Path, found: RunEvaluation) -> None:
 
     if found.truth is None:
         raise AppError("nothing to draw", where=path, expected="true poses")
+    if path.suffix not in (".png", ".pdf", ".svg"):
+        raise AppError("no such kind of picture", where=path, expected=".png, .pdf or .svg")
     error = compare(found.estimate, found.truth)
     figure = Figure(figsize=(10, 4.5), layout="constrained")
     paths, times = figure.subplots(1, 2)
@@ -86,8 +90,7 @@ def _truth(
 ) -> tuple[Trajectory | None, PlaceTruth | None]:
     trajectory = read_tum(groundtruth) if groundtruth else None
     rooms = read_places(places) if places else None
-    if (trajectory is None or rooms is None) and root.is_dir():
+    if trajectory is None and rooms is None and root.is_dir():
         sequence = open_sequence(root)
-        trajectory = trajectory or sequence.ground_truth
-        rooms = rooms or sequence.places
+        return sequence.ground_truth, sequence.places
     return trajectory, rooms

@@ -39,8 +39,6 @@ def export_run(folder: RunFolder, format: str, output: Path | None, overwrite: b
         raise AppError("no such format", where=format, expected=", ".join(EXPORTERS))
     path = output or folder.root / exporter.file_name
     refuse_existing(path, overwrite)
-    if not path.resolve().parent.is_dir():
-        raise AppError("no such folder", where=path.parent, expected="an existing folder")
     exporter.write(folder, path)
     return path
 

@@ -48,10 +48,10 @@ def label_items(model: PlaceModel, data: Path, advance: Advance) -> list[Labelle
     """
     if data.is_dir():
         try:
-            sequence = open_sequence(data, guess_layout(data))
+            layout = guess_layout(data)
         except DatasetError:
             return list(_label_images(model, _images(data), advance))
-        return list(_label_sequence(model, sequence, advance))
+        return list(_label_sequence(model, open_sequence(data, layout), advance))
     return list(_label_images(model, [_unlabelled(data)], advance))
 
 

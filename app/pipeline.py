@@ -65,7 +65,7 @@ class Pipeline:
         self.sequence, self.settings, self.recorder = sequence, settings, recorder
         self.viewer, self.progress = viewer, progress
         self.clock = StageClock()
-        self.slam = Slam(settings.slam)
+        self.slam = Slam(settings.slam, settings.seed)
         self.labels = model.labels if model is not None else LabelSpace.of(())
         self.labeller = PlaceLabeller(model, settings.semantics.labeller)
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
@@ -143,8 +143,8 @@ class Pipeline:
     def _is_map_due(self, tracking: Tracking) -> bool:
         """Whether the map has grown enough, or a loop has bent it, since it was last shown."""
         due = self._drawn_keyframes + self.settings.recording.map_every
-        drawn = self._drawn_keyframes
-        return drawn == 0 or len(self.slam.keyframes) >= due or bool(tracking.closures)
+        first = tracking.is_keyframe and self._drawn_keyframes == 0
+        return first or len(self.slam.keyframes) >= due or bool(tracking.closures)
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:
@@ -167,8 +167,9 @@ class Pipeline:
                 self.recorder.write_pose_graph(
                     self.slam.mapper.graph, [k.stamp_s for k in keyframes.values()]
                 )
-            if len(points):
-                self.recorder.write_map(points, view.label_ids, self.labels)
+            self.recorder.write_map(points, view.label_ids, self.labels)
+        self.recorder.close()
+        with self.clock.stage("close"):
             last = max(0, len(self._labelled) - 1)
             self.viewer.show_map(last, lambda: view)
             self.viewer.show_graph(last, graph)
@@ -177,7 +178,6 @@ class Pipeline:
             self.sequence, self.slam, self._labelled, trajectory, graph, len(points), self.clock
         )
         self.recorder.write_metrics(metrics)
-        self.recorder.close()
         return metrics
 
     def _trajectory(self) -> Trajectory:

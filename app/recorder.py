@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.cloud_io import write_cloud
-from app.run_folder import FRAME_COLUMNS, RunFolder
+from app.run_folder import FRAME_COLUMNS, UNREAD, RunFolder
 from datasets.files import write_text
 from datasets.trajectory import Trajectory, write_tum
 from semantics.graph import SemanticGraph
@@ -45,7 +45,7 @@ class Recorder:
         """Write rows for frames that the run did not get to."""
         for stamp in stamps_s:
             self._rows.writerow(
-                (f"{stamp:.6f}", TrackingState.SKIPPED.value, 0, "", "unknown", "0.0000", "none")
+                (f"{stamp:.6f}", TrackingState.SKIPPED.value, 0, "", "unknown", "0.0000", UNREAD)
             )
         self._file.flush()
 
@@ -62,9 +62,10 @@ class Recorder:
     def write_map(
         self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace
     ) -> None:
-        """Write the labelled cloud and what its labels mean."""
+        """Write what the labels mean, and the labelled cloud if there is one."""
         write_labels(self.folder.labels, labels)
-        write_cloud(self.folder.map, points.points_world, points.colours, label_ids)
+        if len(points):
+            write_cloud(self.folder.map, points.points_world, points.colours, label_ids)
 
     def write_graph(self, graph: SemanticGraph) -> None:
         """Write the topological graph."""

@@ -13,6 +13,10 @@ from typing import Any
 from app.errors import AppError
 from datasets.trajectory import Trajectory, read_tum
 
+# Only a folder that holds all of these is a run, and may be overwritten.
+RUN_MARKS = ("config.toml", "frames.csv")
+# The method of frames that a run did not get to.
+UNREAD = "unread"
 FRAME_COLUMNS = ("timestamp", "state", "inliers", "keyframe", "label", "score", "method")
 
 
@@ -84,7 +88,16 @@ class RunFolder:
 
     def read_metrics(self) -> dict[str, Any]:
         """Return the run's figures."""
-        values: dict[str, Any] = json.loads(self._existing(self.metrics).read_text("utf-8"))
+        try:
+            values: dict[str, Any] = json.loads(self._existing(self.metrics).read_text("utf-8"))
+        except ValueError as error:
+            raise AppError(
+                "figures of the run cannot be read", where=self.metrics, got=str(error)
+            ) from error
+        if not str(values.get("schema", "")).startswith("roomgraph/metrics/"):
+            raise AppError(
+                "figures of another kind", where=self.metrics, expected="schema roomgraph/metrics/1"
+            )
         return values
 
     def read_trajectory(self) -> Trajectory:
@@ -116,19 +129,19 @@ def make_run_folder(output: Path | None, name: str, overwrite: bool) -> RunFolde
     """
     if output is None:
         parent = Path("results") / name
-        root = parent / datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
+        root = parent / datetime.now().strftime("%Y-%m-%d_%H-%M-%S-%f")
         root.mkdir(parents=True)
         latest = parent / "latest"
         latest.unlink(missing_ok=True)
         latest.symlink_to(root.name)
         return RunFolder(root)
-    clear_output(output, overwrite, "config.toml")
+    clear_output(output, overwrite, RUN_MARKS)
     output.mkdir(parents=True)
     return RunFolder(output)
 
 
-def clear_output(output: Path, overwrite: bool, mark: str) -> None:
-    """Make way for a folder to be written; only one that holds the file `mark` is ever removed."""
+def clear_output(output: Path, overwrite: bool, marks: tuple[str, ...]) -> None:
+    """Make way for a folder to be written; only one that holds all of `marks` is ever removed."""
     if not output.exists() or (output.is_dir() and not any(output.iterdir())):
         if output.exists():
             output.rmdir()
@@ -138,16 +151,19 @@ def clear_output(output: Path, overwrite: bool, mark: str) -> None:
             "output exists already", where=output, expected="a new folder",
             hint="choose another with -o, or give --overwrite",
         )  # fmt: skip
-    if not (output / mark).exists():
+    if output.is_symlink() or not all((output / mark).exists() for mark in marks):
         raise AppError(
-            "output is not ours to overwrite", where=output, expected=f"a folder with {mark}",
+            "output is not ours to overwrite", where=output,
+            expected=f"a folder with {' and '.join(marks)}",
             got="another kind of folder or file", hint="choose another with -o",
         )  # fmt: skip
     shutil.rmtree(output)
 
 
 def refuse_existing(output: Path, overwrite: bool) -> None:
-    """Raise where a file to be written is there already."""
+    """Raise where a file to be written is there already, or its folder is not."""
+    if not output.resolve().parent.is_dir():
+        raise AppError("no such folder", where=output.parent, expected="an existing folder")
     if output.exists() and not overwrite:
         raise AppError(
             "output exists already", where=output, expected="a new file",

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.config import AppSettings, seeded, write_settings
+from app.config import AppSettings, write_settings
 from app.console import Terminal
+from app.errors import AppError
 from app.pipeline import Pipeline
 from app.recorder import Recorder
 from app.run_folder import RunFolder, make_run_folder
@@ -37,19 +38,24 @@ def map_sequence(
     terminal: Terminal,
 ) -> tuple[RunFolder, dict[str, Any]]:
     """Map and label a sequence into a new run folder; return it with the run's metrics."""
-    settings = _with_features_of(model, seeded(settings))
     folder = make_run_folder(output, sequence.name, overwrite)
-    write_settings(folder.config, settings)
     with terminal.logging(folder.log):
+        settings = _with_features_of(model, settings)
+        write_settings(folder.config, settings)
         logger.info("sequence %s, %d frames", sequence.root, len(sequence))
         for note in sequence.notes:
             logger.info("%s", note)
-            terminal.say(f"[dim]{note}")
+            terminal.say(note, dim=True)
         viewer = _viewer(folder, settings, showing)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(sequence, settings, model, Recorder(folder), viewer, advance)
             metrics = pipeline.run()
         logger.info("finished: %s", metrics)
+    if not metrics["frames_tracked"]:
+        raise AppError(
+            "no frame could be tracked", where=sequence.root, expected="colour with its depth",
+            hint="look at the depth images, and check --depth-scale and --camera",
+        )  # fmt: skip
     return folder, metrics
 
 

@@ -94,9 +94,9 @@ def read_camera(path: Path) -> Camera:
             tuple(float(v) for v in values.get("distortion", ())),
         )  # fmt: skip
         scale = float(values.get("depth_scale", 1000.0))
-    except FileNotFoundError as error:
+    except OSError as error:
         raise DatasetError(
-            "camera file not found", where=path, hint="name one with --camera FILE.json"
+            "camera file cannot be read", where=path, hint="name one with --camera FILE.json"
         ) from error
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         raise DatasetError(
@@ -104,6 +104,12 @@ def read_camera(path: Path) -> Camera:
             expected="JSON with width, height, fx, fy, cx, cy [, depth_scale], or Open3D's form",
             got=f"{type(error).__name__} {error}",
         ) from error  # fmt: skip
+    lens = intrinsics.distortion
+    if not np.all(np.isfinite([fx, fy, cx, cy, scale, *lens])) or len(lens) not in (0, 4, 5, 8):
+        raise DatasetError(
+            "camera file has a value that cannot be", where=path,
+            expected="finite numbers, and 4, 5 or 8 of them for distortion", got=str(values),
+        )  # fmt: skip
     if min(fx, fy, scale, intrinsics.width, intrinsics.height) <= 0:
         raise DatasetError(
             "camera file has a value that must be positive", where=path,

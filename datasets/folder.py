@@ -57,7 +57,7 @@ def open_folder(root: Path, camera: Camera | None = None) -> RecordedSequence:
     if any(dropped):
         notes.append(f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner")
     return RecordedSequence(
-        root.name, root, camera, stamps,
+        root.resolve().name, root, camera, stamps,
         tuple(c for _, c, _ in pairs), tuple(d for _, _, d in pairs),
         ground_truth=_ground_truth(root), places=places_beside(root), notes=tuple(notes),
     )  # fmt: skip

@@ -48,7 +48,11 @@ def read_places(path: Path) -> PlaceTruth:
     DatasetError
         A column is missing or a time stamp is not a number.
     """
-    with path.open(newline="", encoding="utf-8") as file:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DatasetError("place labels cannot be read", where=path, got=str(error)) from error
+    with io.StringIO(text, newline="") as file:
         reader = csv.DictReader(file)
         if not {"timestamp", "label"} <= set(reader.fieldnames or ()):
             raise DatasetError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +35,8 @@ def open_seven_scenes(root: Path, camera: Camera | None = None) -> RecordedSeque
     DatasetError
         No frame is complete, or a pose or the camera cannot be read.
     """
-    stems = sorted(path.name.split(".")[0] for path in root.glob("frame-*.color.*"))
+    names = (path.name.split(".")[0] for path in root.glob("frame-*.color.*"))
+    stems = sorted((n for n in names if re.fullmatch(r"frame-\d+", n)), key=_number)
     whole = [stem for stem in stems if (root / f"{stem}.depth.png").exists()]
     colour = [next(root.glob(f"{stem}.color.*")) for stem in whole]
     if not whole:
@@ -44,7 +46,7 @@ def open_seven_scenes(root: Path, camera: Camera | None = None) -> RecordedSeque
             got=f"{len(stems)} colour images, none with depth",
         )  # fmt: skip
     camera = camera or _camera_of(root, colour[0])
-    stamps = np.array([int(stem.split("-")[1]) for stem in whole]) / FRAME_RATE_HZ
+    stamps = np.array([_number(stem) for stem in whole]) / FRAME_RATE_HZ
     notes = [
         f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units a metre, "
         f"from {camera.origin}"
@@ -52,11 +54,15 @@ def open_seven_scenes(root: Path, camera: Camera | None = None) -> RecordedSeque
     if len(stems) > len(whole):
         notes.append(f"dropped {len(stems) - len(whole)} colour images without depth")
     return RecordedSequence(
-        root.name, root, camera, stamps, tuple(colour),
+        root.resolve().name, root, camera, stamps, tuple(colour),
         tuple(root / f"{stem}.depth.png" for stem in whole),
         ground_truth=_read_poses(root, whole, stamps),
         places=places_beside(root), notes=tuple(notes),
     )  # fmt: skip
+
+
+def _number(stem: str) -> int:
+    return int(stem.split("-")[1])
 
 
 def _read_poses(root: Path, stems: list[str], stamps: np.ndarray) -> Trajectory | None:
@@ -83,6 +89,11 @@ def _camera_of(root: Path, first_colour: Path) -> Camera:
         return read_camera(root / "camera.json")
     height, width = read_colour(first_colour).shape[:2]
     path = root / "camera-intrinsics.txt"
+    if not path.exists() and (width, height) != (640, 480):
+        raise DatasetError(
+            "camera unknown", where=root, expected=f"{path.name}, or 640x480 images",
+            got=f"{width}x{height}", hint="name the camera with --camera FILE.json",
+        )  # fmt: skip
     if not path.exists():
         values, origin = PUBLISHED, "7-Scenes' published calibration"
     else:

@@ -41,7 +41,7 @@ def open_tum(root: Path, camera: Camera | None = None) -> RecordedSequence:
         f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
     )
     return RecordedSequence(
-        root.name, root, camera, stamps, tuple(colour), tuple(depth),
+        root.resolve().name, root, camera, stamps, tuple(colour), tuple(depth),
         ground_truth=read_tum(truth) if truth.exists() else None,
         places=places_beside(root), notes=tuple(notes),
     )  # fmt: skip

@@ -52,9 +52,10 @@ class Features:
     sizes: NDArray[np.float32]
 
     @classmethod
-    def none(cls, length: int = 128) -> Features:
-        """Return no features, of descriptors of some length."""
-        return cls(np.empty((0, 2)), np.empty((0, length), np.float32), np.empty(0, np.float32))
+    def none(cls, is_binary: bool = False) -> Features:
+        """Return no features, of descriptors like SIFT's or like ORB's."""
+        descriptors = np.empty((0, 32), np.uint8) if is_binary else np.empty((0, 128), np.float32)
+        return cls(np.empty((0, 2)), descriptors, np.empty(0, np.float32))
 
     def __len__(self) -> int:
         return len(self.pixels)
@@ -104,7 +105,7 @@ class FeatureExtractor:
             grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
         keypoints, descriptors = self._detector.detectAndCompute(grey, None)
         if descriptors is None:
-            return Features.none(32 if self.is_binary else 128)
+            return Features.none(self.is_binary)
         order = np.argsort([-keypoint.response for keypoint in keypoints], kind="stable")
         pixels = np.array([keypoint.pt for keypoint in keypoints])[order]
         sizes = np.array([keypoint.size for keypoint in keypoints], dtype=np.float32)[order]

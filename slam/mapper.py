@@ -63,9 +63,10 @@ class Mapper:
         linker: Linker,
         loops: LoopCloser,
         graph: PoseGraph,
+        seed: int = 0,
     ) -> None:
         self.settings, self.planes, self.cloud, self.noise = settings, planes, cloud, noise
-        self.linker, self.loops, self.graph = linker, loops, graph
+        self.linker, self.loops, self.graph, self.seed = linker, loops, graph, seed
         self.keyframes: dict[int, Keyframe] = {}
         self.closures: list[LoopClosure] = []
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
@@ -74,6 +75,7 @@ class Mapper:
         """Make the first keyframe; return its id."""
         keyframe = self._keep(view)
         self.graph.add_keyframe(keyframe.id, T_world_camera)
+        self.keyframes[keyframe.id] = keyframe
         self.graph.optimise()
         self.loops.index.add(keyframe.id, self.loops.index.words_of(keyframe.features.descriptors))
         return keyframe.id
@@ -83,6 +85,7 @@ class Mapper:
         reference, T = _pose_of(located)
         keyframe = self._keep(view)
         self.graph.add_keyframe(keyframe.id, self.graph[reference] @ poses.inverse(T))
+        self.keyframes[keyframe.id] = keyframe
         for link in self._links(view, keyframe, located):
             self._add(link)
         known = self._neighbours[keyframe.id].union(
@@ -131,7 +134,7 @@ class Mapper:
         frame = view.frame
         cloud, colours = cloud_of(view, self.cloud.stride, self.cloud.max_depth_m)
         planes = (
-            extract_planes(cloud.astype(np.float64), self.noise, self.planes)
+            extract_planes(cloud.astype(np.float64), self.noise, self.planes, self.seed)
             if self.planes.enabled
             else ()
         )
@@ -139,7 +142,6 @@ class Mapper:
             len(self.keyframes), frame.index, frame.stamp_s, view.features, view.points_camera,
             planes, cloud, colours, frame.intrinsics,
         )  # fmt: skip
-        self.keyframes[keyframe.id] = keyframe
         return keyframe
 
     def _links(self, view: View, keyframe: Keyframe, located: Located | Coarse) -> list[Link]:

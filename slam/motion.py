@@ -29,7 +29,6 @@ class MotionSettings(Settings):
         3.0, gt=0, le=20, description="3-D inliers lie within this many standard deviations"
     )
     min_inliers: int = Field(15, ge=6, description="fewer agreeing matches are no motion")
-    seed: int = Field(0, ge=0, description="of the random samples")
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,19 +98,25 @@ def procrustes(source: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def estimate_motion(
-    found: Correspondences, intrinsics: Intrinsics, noise: SensorNoise, settings: MotionSettings
+    found: Correspondences,
+    intrinsics: Intrinsics,
+    noise: SensorNoise,
+    settings: MotionSettings,
+    seed: int = 0,
 ) -> Motion | None:
     """Return the motion that most correspondences agree with, or None if too few do."""
     if len(found) < settings.min_inliers:
         return None
     if settings.method == "pnp":
-        motion = _pnp(found, intrinsics, settings)
+        motion = _pnp(found, intrinsics, settings, seed)
     else:
-        motion = _procrustes_ransac(found, intrinsics, noise, settings)
+        motion = _procrustes_ransac(found, intrinsics, noise, settings, seed)
     return motion if motion is not None and motion.count >= settings.min_inliers else None
 
 
-def _pnp(found: Correspondences, intrinsics: Intrinsics, settings: MotionSettings) -> Motion | None:
+def _pnp(
+    found: Correspondences, intrinsics: Intrinsics, settings: MotionSettings, seed: int
+) -> Motion | None:
     parameters = cv2.UsacParams()
     parameters.threshold = settings.pixel_threshold
     parameters.maxIterations = settings.iterations
@@ -119,7 +124,7 @@ def _pnp(found: Correspondences, intrinsics: Intrinsics, settings: MotionSetting
     parameters.score = cv2.SCORE_METHOD_MSAC
     parameters.sampler = cv2.SAMPLING_UNIFORM
     parameters.loMethod = cv2.LOCAL_OPTIM_INNER_LO
-    parameters.randomGeneratorState = settings.seed
+    parameters.randomGeneratorState = seed
     success, _, rotation, translation, inliers = cv2.solvePnPRansac(
         found.points, found.pixels, intrinsics.K, None, params=parameters
     )
@@ -132,7 +137,11 @@ def _pnp(found: Correspondences, intrinsics: Intrinsics, settings: MotionSetting
 
 
 def _procrustes_ransac(
-    found: Correspondences, intrinsics: Intrinsics, noise: SensorNoise, settings: MotionSettings
+    found: Correspondences,
+    intrinsics: Intrinsics,
+    noise: SensorNoise,
+    settings: MotionSettings,
+    seed: int,
 ) -> Motion | None:
     """Try minimal samples of three point pairs, all at once, and refit on the inliers."""
     known = np.flatnonzero(np.isfinite(found.depths))
@@ -140,7 +149,7 @@ def _procrustes_ransac(
         return None
     source = found.points[known]
     target = intrinsics.backproject(found.pixels[known], found.depths[known])
-    rng = np.random.default_rng(settings.seed)
+    rng = np.random.default_rng(seed)
     samples = np.argsort(rng.random((settings.iterations, len(known))), axis=1)[:, :3]
     sigma = noise.depth_sigma(source[:, 2]) + noise.depth_sigma(target[:, 2])
     allowed = settings.sigma_threshold * sigma

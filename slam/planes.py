@@ -28,7 +28,6 @@ class PlaneSettings(Settings):
         0.45, gt=0, le=1, description="root mean square distance at most, as a share of the bound"
     )
     points: int = Field(4000, ge=200, description="points of a view that are looked at")
-    seed: int = Field(0, ge=0, description="of the random samples")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +49,7 @@ class Plane:
 
 
 def extract_planes(
-    points_camera: FloatArray, noise: SensorNoise, settings: PlaneSettings
+    points_camera: FloatArray, noise: SensorNoise, settings: PlaneSettings, seed: int = 0
 ) -> tuple[Plane, ...]:
     """Return the planes among points (N, 3), the largest first.
 
@@ -58,7 +57,7 @@ def extract_planes(
     points are left out and the search repeated (Kostavelis & Gasteratos, 2013, section 3.1.2).
     Alpha follows the depth noise at each point.
     """
-    rng = np.random.default_rng(settings.seed)
+    rng = np.random.default_rng(seed)
     if len(points_camera) > settings.points:
         points_camera = points_camera[:: -(-len(points_camera) // settings.points)]
     needed = max(30, int(settings.min_share * len(points_camera)))

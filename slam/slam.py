@@ -66,22 +66,24 @@ class Slam:
     ...     tracking = slam.process(frame)
     """
 
-    def __init__(self, settings: SlamSettings) -> None:
+    def __init__(self, settings: SlamSettings, seed: int = 0) -> None:
         self.settings = settings
         self._extractor = FeatureExtractor(settings.features)
-        self._tracker = Tracker(settings.tracker, settings.motion, settings.noise)
+        self._tracker = Tracker(settings.tracker, settings.motion, settings.noise, seed)
         linker = Linker(self._tracker, settings.icp, settings.noise)
         self.mapper = Mapper(
             settings.keyframes, settings.planes, settings.map, settings.noise, linker,
             LoopCloser(settings.loops, settings.appearance, linker),
-            PoseGraph(settings.pose_graph),
+            PoseGraph(settings.pose_graph), seed,
         )  # fmt: skip
         self._depth_odometry = DepthOdometry(
-            settings.textureless, settings.planes, settings.icp, settings.noise
+            settings.textureless, settings.planes, settings.icp, settings.noise, seed
         )
         self._around: LocalMap | None = None
         self._last: Anchor | None = None
         self._last_view: View | None = None
+        # Of the last pose, relative to its keyframe, in the camera's frame.
+        self._covariance: FloatArray = np.zeros((6, 6))
         self._velocity = np.eye(4)
         self._lost = False
 
@@ -165,7 +167,10 @@ class Slam:
         if step is None:
             return None
         T_camera_reference = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
-        return Coarse(self._last.keyframe, T_camera_reference, step.information)
+        # The step's error comes on top of that of the pose it starts from.
+        carried = poses.adjoint(step.T_camera_last)
+        covariance = carried @ self._covariance @ carried.T + np.linalg.inv(step.information)
+        return Coarse(self._last.keyframe, T_camera_reference, np.linalg.inv(covariance))
 
     def _relocalise(self, view: View) -> Located | None:
         """Look for the view among the keyframes last seen and those that look alike."""
@@ -187,14 +192,18 @@ class Slam:
             self._depth_odometry.forget()
             anchor = _anchor(located.local_map.reference, located.motion.T_camera_reference)
             is_keyframe = self.mapper.wants(view, located)
+            information = located.motion.information
         else:
             inliers, method = 0, "depth"
             anchor = _anchor(located.reference, located.T_camera_reference)
             is_keyframe = self._far(anchor)
+            information = located.information
+        self._covariance = np.asarray(np.linalg.inv(information + 1e-6 * np.eye(6)))
         self._follow(anchor)
         if is_keyframe:
             keyframe, closures = self.mapper.insert(view, located)
             anchor = Anchor(keyframe, np.eye(4))
+            self._covariance = np.zeros((6, 6))
         self._settle(located, anchor, is_keyframe)
         self._last, self._last_view, self._lost = anchor, view, False
         return self._report(view, state, inliers, method, anchor, is_keyframe, closures)

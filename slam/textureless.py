@@ -61,8 +61,10 @@ class DepthOdometry:
         planes: PlaneSettings,
         icp: IcpSettings,
         noise: SensorNoise,
+        seed: int = 0,
     ) -> None:
-        self.settings, self.planes, self.icp, self.noise = settings, planes, icp, noise
+        self.settings, self.planes, self.icp = settings, planes, icp
+        self.noise, self.seed = noise, seed
         self._kiss: Any = None
         self._last: Surface | None = None
         self._last_planes: tuple[Plane, ...] = ()
@@ -170,4 +172,6 @@ class DepthOdometry:
         return np.asarray(np.minimum(gap, 2 * self.settings.fit_m))
 
     def _planes_of(self, cloud: FloatArray) -> tuple[Plane, ...]:
-        return extract_planes(cloud, self.noise, self.planes) if self.planes.enabled else ()
+        return (
+            extract_planes(cloud, self.noise, self.planes, self.seed) if self.planes.enabled else ()
+        )

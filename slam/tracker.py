@@ -71,9 +71,9 @@ class Tracker:
     """Finds a view's pose from feature matches with a local map."""
 
     def __init__(
-        self, settings: TrackerSettings, motion: MotionSettings, noise: SensorNoise
+        self, settings: TrackerSettings, motion: MotionSettings, noise: SensorNoise, seed: int = 0
     ) -> None:
-        self.settings, self.motion, self.noise = settings, motion, noise
+        self.settings, self.motion, self.noise, self.seed = settings, motion, noise, seed
 
     def track(
         self, view: View, around: LocalMap, T_camera_reference: FloatArray | None
@@ -129,7 +129,7 @@ class Tracker:
         """Find the pose that most pairs agree with: RANSAC, then refinement on all of them."""
         pairs = one_a_position(pairs, view.features.pixels)
         found = correspondences(around.points, view, pairs)
-        coarse = estimate_motion(found, view.frame.intrinsics, self.noise, self.motion)
+        coarse = estimate_motion(found, view.frame.intrinsics, self.noise, self.motion, self.seed)
         if coarse is None:
             return None
         fine = refine_motion(coarse.T_camera_reference, found, view.frame.intrinsics, self.noise)

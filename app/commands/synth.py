@@ -54,6 +54,6 @@ def synth(
         width=width,
         height=height,
     )
-    clear_output(output, overwrite, "places.csv")
+    clear_output(output, overwrite, ("building.json", "places.csv"))
     render({settings.light: output}, settings, terminal)
     terminal.say(f"Written to {output}; map it with: roomgraph run {output}")

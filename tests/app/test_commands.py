@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import cv2
 import numpy as np
 import pytest
 
@@ -239,3 +240,50 @@ def test_another_datasets_package_is_noticed(tmp_path):
     assert done.returncode == 1
     assert "another package named 'datasets'" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_folder_with_ones_own_labels_is_never_overwritten(tmp_path, monkeypatch, capsys):
+    precious = tmp_path / "precious"
+    precious.mkdir()
+    (precious / "places.csv").write_text("timestamp,label\n")
+    said = _fails(monkeypatch, capsys, "synth", "-o", precious, "--overwrite")
+    assert "not ours" in said
+    assert (precious / "places.csv").exists()
+
+
+def test_names_with_brackets_are_only_names(rendered_walk, tmp_path, monkeypatch, capsys):
+    odd = tmp_path / "a[/b]c"
+    shutil.copytree(rendered_walk, odd)
+    arguments = ("run", odd, "-o", tmp_path / "out[x]", "--frames", "5", "--no-rrd")
+    assert roomgraph(monkeypatch, *arguments) == 0
+    assert f"roomgraph view {tmp_path / 'out[x]'}\n" in capsys.readouterr().out
+
+
+def test_nothing_to_track_is_an_error_that_leaves_a_whole_folder(
+    rendered_walk, tmp_path, monkeypatch, capsys
+):
+    dark = tmp_path / "dark"
+    shutil.copytree(rendered_walk, dark)
+    for image in (dark / "depth").iterdir():
+        cv2.imwrite(str(image), np.zeros((240, 320), np.uint16))
+    for image in (dark / "rgb").iterdir():
+        cv2.imwrite(str(image), np.zeros((240, 320, 3), np.uint8))
+    arguments = ("run", dark, "-o", tmp_path / "out", "--frames", "5", "--no-rrd", "--quiet")
+    assert "no frame could be tracked" in _fails(monkeypatch, capsys, *arguments)
+    folder = RunFolder(tmp_path / "out")
+    assert folder.labels.exists()
+    assert [row["state"] for row in folder.read_frames()] == ["skipped"] * 5
+
+
+def test_files_that_cannot_be_written_or_read(mapped, rendered_walk, tmp_path, monkeypatch, capsys):
+    model, run = mapped
+    nowhere = tmp_path / "nowhere" / "file.png"
+    assert "no such folder" in _fails(monkeypatch, capsys, "eval", run, "-o", nowhere)
+    assert "no such folder" in _fails(monkeypatch, capsys, "label", model, run, "-o", nowhere)
+    assert str(nowhere) in _fails(monkeypatch, capsys, "eval", run, "--places", nowhere)
+    (tmp_path / "file").write_text("")
+    inside = tmp_path / "file" / "out"
+    assert str(tmp_path / "file") in _fails(monkeypatch, capsys, "run", rendered_walk, "-o", inside)
+    assert "camera file cannot be read" in _fails(
+        monkeypatch, capsys, "run", rendered_walk, "--camera", tmp_path
+    )

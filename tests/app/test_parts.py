@@ -10,11 +10,11 @@ import pytest
 from app.buildings import building_settings
 from app.clock import StageClock
 from app.cloud_io import read_cloud, write_cloud
-from app.config import AppSettings, load_settings, seeded, to_toml, write_settings
+from app.config import load_settings, to_toml, write_settings
 from app.console import Terminal
 from app.errors import AppError
 from app.prefetch import prefetch
-from app.run_folder import RunFolder, clear_output, make_run_folder
+from app.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
 
 
 def test_prefetch_keeps_the_order_and_works_ahead():
@@ -101,11 +101,6 @@ def test_flags_win_over_the_file_and_the_file_over_defaults(tmp_path):
     assert (settings.seed, settings.slam.max_depth_m) == (4, 2.0)
 
 
-def test_the_one_seed_reaches_everything_random():
-    settings = seeded(AppSettings(seed=9))
-    assert settings.slam.motion.seed == settings.slam.planes.seed == 9
-
-
 def test_run_folders_are_dated_and_the_latest_linked(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     folder = make_run_folder(None, "kitchen", overwrite=False)
@@ -115,15 +110,16 @@ def test_run_folders_are_dated_and_the_latest_linked(tmp_path, monkeypatch):
 
 def test_only_our_own_output_is_ever_removed(tmp_path):
     ours, other = tmp_path / "ours", tmp_path / "other"
-    for root, name in ((ours, "config.toml"), (other, "thesis.tex")):
+    for root, names in ((ours, RUN_MARKS), (other, ("config.toml", "thesis.tex"))):
         root.mkdir()
-        (root / name).write_text("")
+        for name in names:
+            (root / name).write_text("")
     with pytest.raises(AppError, match="exists already"):
-        clear_output(ours, overwrite=False, mark="config.toml")
-    clear_output(ours, overwrite=True, mark="config.toml")
+        clear_output(ours, overwrite=False, marks=RUN_MARKS)
+    clear_output(ours, overwrite=True, marks=RUN_MARKS)
     assert not ours.exists()
     with pytest.raises(AppError, match="not ours"):
-        clear_output(other, overwrite=True, mark="config.toml")
+        clear_output(other, overwrite=True, marks=RUN_MARKS)
     assert other.exists()
 
 

@@ -144,11 +144,3 @@ def test_map_lies_on_the_rooms_surfaces(tracked):
     world = poses.transform(slam.pose_of(trackings[30].anchor), seen)
     distance, _ = cKDTree(points.points_world).query(world)
     assert np.median(distance) < 0.03
-
-
-def test_a_voxel_holds_one_point(tracked):
-    slam, _, _ = tracked
-    points = slam.build_map().points_world
-    cells = np.floor((points - points.min(axis=0)) / slam.settings.map.voxel_m)
-    # A mean may fall on a border by rounding.
-    assert len(np.unique(cells, axis=0)) > 0.97 * len(points)
