@@ -8,7 +8,7 @@ class Walk:
     """Asks for the place of one node after the other, all of the same label."""
 
     def __init__(self):
-        self.names = PlaceNames(InstanceSettings())
+        self.names = PlaceNames(InstanceSettings(min_difference=0.8))
         self.sights, self.stays = [], []
 
     def node(self, x, histogram, follows_last=False):
@@ -102,3 +102,13 @@ def test_a_stay_goes_on_after_a_wrong_label_in_between():
     walk.node(8, mix(0, 2, 0.4))
     assert walk.node(10, view(2), follows_last=False) == "office2"
     assert walk.places == ["office1", "office2", "office2"]
+
+
+def test_by_default_rooms_that_look_somewhat_alike_are_told_apart_by_distance():
+    walk = Walk()
+    walk.names = PlaceNames(InstanceSettings())
+    assert walk.node(0, view(0)) == "office1"
+    alike = mix(0, 2, 0.4)
+    assert 0.4 < float(np.linalg.norm(alike - view(0))) < 0.8
+    assert walk.node(8, alike) == "office2"
+    assert walk.node(16, alike) == "office2"
