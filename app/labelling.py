@@ -73,7 +73,7 @@ def accuracy_table(items: Sequence[LabelledItem]) -> Table | None:
     for name, share in accuracy.per_label.items():
         if np.isfinite(share):
             table.add_row(name, f"{share:.1%}")
-    table.add_row("[bold]all", f"[bold]{accuracy.overall:.1%} of {accuracy.count}")
+    table.add_row("all", f"{accuracy.overall:.1%} of {accuracy.count}", style="bold")
     return table
 
 

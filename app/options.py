@@ -11,7 +11,13 @@ SequenceArgument = Annotated[
     Path, typer.Argument(metavar="SEQUENCE", help="Folder of an RGB-D sequence.")
 ]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where to write.")
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="Where to write; else results/NAME/TIME, with a link `latest`.",
+    ),
 ]
 OverwriteOption = Annotated[
     bool, typer.Option("--overwrite", help="Replace an output that is there already.")

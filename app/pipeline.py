@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
@@ -77,9 +78,9 @@ class Pipeline:
 
         Whatever ends it, an unreadable frame or the user, what was found so far is written.
         """
-        self.viewer.start(self._session())
         # The matrices are small: BLAS threads would only get in the way of those that read ahead.
-        with threadpool_limits(1, user_api="blas"):
+        with closing(self.recorder), threadpool_limits(1, user_api="blas"):
+            self.viewer.start(self._session())
             try:
                 for view in self._views():
                     tracking = self._track(view)
@@ -168,7 +169,6 @@ class Pipeline:
                     self.slam.mapper.graph, [k.stamp_s for k in keyframes.values()]
                 )
             self.recorder.write_map(points, view.label_ids, self.labels)
-        self.recorder.close()
         with self.clock.stage("close"):
             last = max(0, len(self._labelled) - 1)
             self.viewer.show_map(last, lambda: view)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.table import Table
@@ -26,10 +26,16 @@ def summary(metrics: Mapping[str, Any]) -> Table:
     )  # fmt: skip
     table.add_row("map", f"{metrics['map_points']:,} points")
     table.add_row("graph", f"{metrics['graph_nodes']} nodes, {metrics['graph_edges']} edges")
-    table.add_row("places", ", ".join(metrics["places"]) or "none")
+    table.add_row("places", _places(metrics["places"]))
     for row in _truth_rows(metrics):
         table.add_row(*row)
     return table
+
+
+def _places(places: Sequence[str]) -> str:
+    if not set(places) - {"unknown"}:
+        return "not labelled (a model from `roomgraph train` does: --model)"
+    return ", ".join(places)
 
 
 def against_truth(metrics: Mapping[str, Any]) -> Table:

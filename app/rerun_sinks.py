@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import socket
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import rerun as rr
@@ -13,6 +16,7 @@ import rerun.blueprint as rrb
 from app.errors import AppError
 
 APPLICATION = "roomgraph"
+PATIENCE_S = 10.0
 
 
 def open_sinks(
@@ -41,7 +45,7 @@ def open_sinks(
     recording.set_log_tick_enabled(False)
     sinks: list[rr.FileSink | rr.GrpcSink] = []
     if port is not None:
-        _open_window(recording, port)
+        _open_window(port)
         sinks.append(rr.GrpcSink(f"rerun+http://127.0.0.1:{port}/proxy"))
     if save is not None:
         sinks.append(rr.FileSink(save))
@@ -53,19 +57,29 @@ def open_sinks(
     return recording
 
 
-def _open_window(recording: rr.RecordingStream, port: int) -> None:
-    """Open the viewer's window, or find the one that is open already."""
+def _open_window(port: int) -> None:
+    """Open the viewer's window, reachable from this machine only."""
     # The viewer comes with the package: its program lies beside the interpreter.
     program = shutil.which("rerun", path=str(Path(sys.executable).parent))
-    try:
-        rr.spawn(
-            port=port, connect=False, hide_welcome_screen=True, executable_path=program,
-            recording=recording,
-        )  # fmt: skip
-        socket.create_connection(("127.0.0.1", port), timeout=2.0).close()
-    except (OSError, RuntimeError) as error:
-        raise AppError(
-            "the Rerun window does not open", expected="the program `rerun` and a display",
-            got=str(error).strip().split("\n")[0],
-            hint="leave out -v and open the recording later with `roomgraph view`",
-        ) from error  # fmt: skip
+    headless = sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
+    if program is None or headless:
+        raise _no_window("no display" if program else "no program `rerun`")
+    window = subprocess.Popen(
+        [program, "--bind", "127.0.0.1", "--port", str(port), "--hide-welcome-screen"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+    )  # fmt: skip
+    give_up = time.monotonic() + PATIENCE_S
+    while time.monotonic() < give_up and window.poll() is None:
+        try:
+            socket.create_connection(("127.0.0.1", port), timeout=1.0).close()
+            return
+        except OSError:
+            time.sleep(0.1)
+    raise _no_window(f"exit status {window.poll()}" if window.poll() is not None else "no answer")
+
+
+def _no_window(got: str) -> AppError:
+    return AppError(
+        "the Rerun window does not open", expected="the program `rerun` and a display", got=got,
+        hint="leave out -v and open the recording later with `roomgraph view`",
+    )  # fmt: skip

@@ -50,7 +50,7 @@ def map_sequence(
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(sequence, settings, model, Recorder(folder), viewer, advance)
             metrics = pipeline.run()
-        logger.info("finished: %s", metrics)
+        logger.info("finished, see %s", folder.metrics.name)
     if not metrics["frames_tracked"]:
         raise AppError(
             "no frame could be tracked", where=sequence.root, expected="colour with its depth",

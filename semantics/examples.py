@@ -45,6 +45,9 @@ def folder_examples(root: Path) -> list[Example]:
     SemanticsError
         There is no folder with an image in it.
     """
+    folders = [f for f in (root.iterdir() if root.is_dir() else ()) if f.is_dir()]
+    for folder in sorted(folders):
+        _refuse_level_above(folder)
     examples = [
         Example(str(path), folder.name, str(path), partial(read_colour, path))
         for folder in sorted(root.iterdir() if root.is_dir() else ())
@@ -58,6 +61,18 @@ def folder_examples(root: Path) -> list[Example]:
             hint="or give a sequence with places.csv",
         )  # fmt: skip
     return examples
+
+
+def _refuse_level_above(folder: Path) -> None:
+    """Raise where a class's folder holds no image itself, but several folders of images."""
+    inside = list(folder.iterdir())
+    if any(path.suffix.lower() in IMAGE_SUFFIXES for path in inside):
+        return
+    if sum(path.is_dir() for path in inside) > 1:
+        raise SemanticsError(
+            "no images directly in a class's folder", where=folder,
+            expected="DATA/class/image", got="folders only", hint=f"did you mean {folder}?",
+        )  # fmt: skip
 
 
 def sequence_examples(sequence: sequences.Sequence) -> list[Example]:

@@ -48,6 +48,7 @@ def train(
     images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())
     terminal.say(f"Learned {len(model.labels) - 1} places from: {images}")
     terminal.say(
-        f"Right on held-out visits: {model.training['cross_validated_accuracy']:.1%} of images. "
+        f"Right on held-out images: {model.training['cross_validated_accuracy']:.1%}, "
+        f"where chance is {1 / (len(model.labels) - 1):.1%}. "
         f"Model written to {output}"
     )

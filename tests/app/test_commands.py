@@ -287,3 +287,22 @@ def test_files_that_cannot_be_written_or_read(mapped, rendered_walk, tmp_path, m
     assert "camera file cannot be read" in _fails(
         monkeypatch, capsys, "run", rendered_walk, "--camera", tmp_path
     )
+
+
+def test_training_one_level_too_high_is_noticed(tmp_path, monkeypatch, capsys):
+    for split in ("train", "test"):
+        for name in ("office", "kitchen"):
+            folder = tmp_path / "photos" / split / name
+            folder.mkdir(parents=True)
+            cv2.imwrite(str(folder / "a.png"), np.zeros((8, 8), np.uint8))
+    said = _fails(monkeypatch, capsys, "train", tmp_path / "photos", "-o", tmp_path / "model")
+    assert "did you mean" in said
+
+
+def test_watching_without_a_display_is_refused_at_once(
+    rendered_walk, tmp_path, monkeypatch, capsys
+):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    arguments = ("run", rendered_walk, "-o", tmp_path / "out", "-v", "--quiet")
+    assert "leave out -v" in _fails(monkeypatch, capsys, *arguments)
