@@ -40,7 +40,7 @@ class TrainingSettings(Settings):
     normalisation: Normalisation = Field(
         "hellinger", description="histograms the SVM sees: l1 (paper), l2 or hellinger"
     )
-    C: float = Field(1.0, gt=0, description="penalty of the SVM (paper: 10, with l1)")
+    C: float = Field(10.0, gt=0, description="penalty of the SVM (paper: 10)")
     min_features: int = Field(
         5, ge=1, description="an image with fewer features than this is of an unknown place"
     )
