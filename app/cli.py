@@ -27,7 +27,7 @@ cli = typer.Typer(
     epilog="Start with: roomgraph demo",
     no_args_is_help=True,
     add_completion=False,
-    rich_markup_mode="markdown",
+    rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )

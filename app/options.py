@@ -44,11 +44,14 @@ ConfigOption = Annotated[
     Path | None,
     typer.Option("--config", metavar="TOML", help="Settings, as `roomgraph config` prints them."),
 ]
-StartOption = Annotated[int, typer.Option("--start", min=0, help="First frame.")]
+StartOption = Annotated[int, typer.Option("--start", metavar="N", min=0, help="First frame.")]
 FramesOption = Annotated[
-    int | None, typer.Option("--frames", min=1, help="Frames at most.", show_default="all")
+    int | None,
+    typer.Option("--frames", metavar="N", min=1, help="Frames at most.", show_default="all"),
 ]
-StrideOption = Annotated[int, typer.Option("--stride", min=1, help="Every n-th frame.")]
+StrideOption = Annotated[
+    int, typer.Option("--stride", metavar="N", min=1, help="Every n-th frame.")
+]
 MaxDepthOption = Annotated[
     float | None,
     typer.Option("--max-depth", metavar="M", min=0.1, help="Ignore readings beyond, metres."),
@@ -60,7 +63,8 @@ SaveRrdOption = Annotated[
     bool, typer.Option("--save-rrd/--no-rrd", help="Write recording.rrd for Rerun.")
 ]
 SeedOption = Annotated[
-    int | None, typer.Option("--seed", min=0, help="Of all random choices.", show_default="0")
+    int | None,
+    typer.Option("--seed", metavar="N", min=0, help="Of all random choices.", show_default="0"),
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
 VerboseOption = Annotated[bool, typer.Option("--verbose", help="Say what is going on inside.")]
