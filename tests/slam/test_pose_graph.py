@@ -92,3 +92,68 @@ def test_misuse_is_said(rng):
     graph.add_keyframe(1, np.eye(4))
     with pytest.raises(SlamError, match="link to every keyframe"):
         graph.optimise()
+
+
+def _two_parts(ring, cut, rng, noise=0.0):
+    """Chain a ring's poses, but begin anew, somewhere else, at `cut`."""
+    graph = PoseGraph(PoseGraphSettings())
+    elsewhere = poses.exponential(np.array([0.1, 2.0, 0.3, 5.0, -1.0, 3.0]))
+    graph.add_keyframe(0, ring[0])
+    for i in range(1, len(ring)):
+        if i == cut:
+            graph.add_keyframe(i, elsewhere @ ring[i], starts_component=True)
+        else:
+            link = _link(ring, i - 1, i, error=noise * rng.normal(size=6))
+            graph.add_keyframe(i, graph[i - 1] @ link.T_first_second)
+            graph.add_link(link)
+        graph.optimise()
+    return graph
+
+
+@pytest.mark.parametrize("ends", [(2, 9), (9, 2)])
+def test_link_between_two_sub_maps_moves_the_younger(rng, ends):
+    ring = _ring()
+    graph = _two_parts(ring, 6, rng)
+    assert graph.components == 2
+    assert [graph.component_of(i) for i in (0, 5, 6, 11)] == [0, 0, 6, 6]
+    assert graph.way_between(0, 5) < 6 < graph.way_between(5, 6) == np.inf
+    assert motion_error(graph[8], ring[8])[0] > 1
+    graph.add_link(_link(ring, *ends, is_loop=True))
+    graph.optimise()
+    assert graph.components == 1
+    assert {graph.component_of(i) for i in range(12)} == {0}
+    assert all(np.allclose(graph[i], ring[i], atol=1e-5) for i in range(12))
+
+
+def test_joined_sub_maps_go_on_and_are_optimised_together(rng):
+    ring = _ring(40)
+    graph = _two_parts(ring, 20, rng, noise=0.01)
+    graph.add_link(_link(ring, 0, 39, is_loop=True))
+    graph.optimise()
+    before = max(motion_error(graph[i], ring[i])[0] for i in range(40))
+    graph.add_link(_link(ring, 19, 20, is_loop=True))
+    graph.add_keyframe(40, graph[39])
+    graph.add_link(Link(39, 40, np.eye(4), 1e4 * np.eye(6), False))
+    graph.optimise()
+    assert max(motion_error(graph[i], ring[i])[0] for i in range(40)) < before
+    assert graph.component_of(40) == 0
+    assert np.allclose(graph[40], graph[39], atol=1e-5)
+
+
+def test_three_sub_maps_keep_the_world_of_the_first(rng):
+    ring = _ring(6)
+    graph = PoseGraph(PoseGraphSettings())
+    for i in range(6):
+        place = ring[i] if i < 2 else poses.pose(t=(i // 2, 0, 0)) @ ring[i]
+        graph.add_keyframe(i, place, starts_component=i % 2 == 0)
+        if i % 2:
+            graph.add_link(_link(ring, i - 1, i))
+    graph.optimise()
+    assert graph.components == 3
+    graph.add_link(_link(ring, 3, 5, is_loop=True))
+    graph.optimise()
+    assert graph.components == 2
+    assert np.allclose(graph[5], poses.pose(t=(1, 0, 0)) @ ring[5], atol=1e-6)
+    graph.add_link(_link(ring, 4, 1, is_loop=True))
+    graph.optimise()
+    assert all(np.allclose(graph[i], ring[i], atol=1e-5) for i in range(6))
