@@ -26,6 +26,7 @@ from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
 from semantics.topology import TopologicalMap
 from slam.map import PointMap
+from slam.memory import remember
 from slam.slam import Slam
 from slam.tracking import Tracking, TrackingState
 from slam.view import View
@@ -168,6 +169,7 @@ class Pipeline:
                 self.recorder.write_pose_graph(
                     self.slam.mapper.graph, [k.stamp_s for k in keyframes.values()]
                 )
+            self.recorder.write_memory(remember(keyframes.values(), self.slam.keyframe_poses))
             self.recorder.write_map(points, view.label_ids, self.labels)
         with self.clock.stage("close"):
             last = max(0, len(self._labelled) - 1)

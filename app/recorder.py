@@ -19,6 +19,7 @@ from semantics.graph_io import write_graph_json, write_graphml
 from semantics.labeller import FrameLabel
 from semantics.labels import LabelSpace, write_labels
 from slam.map import PointMap
+from slam.memory import KeyframeMemory, write_memory
 from slam.pose_graph import PoseGraph
 from slam.tracking import Tracking, TrackingState
 
@@ -58,6 +59,11 @@ class Recorder:
         T = np.array([graph[key] for key in sorted(graph.poses)]).reshape(-1, 4, 4)
         write_tum(self.folder.keyframes, Trajectory(np.array(stamps_s), T))
         graph.write_g2o(self.folder.pose_graph)
+
+    def write_memory(self, memory: KeyframeMemory | None) -> None:
+        """Write what is kept of the keyframes, if there are any."""
+        if memory is not None:
+            write_memory(self.folder.memory, memory)
 
     def write_map(
         self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace

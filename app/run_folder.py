@@ -47,6 +47,11 @@ class RunFolder:
         return self.root / "pose_graph.g2o"
 
     @property
+    def memory(self) -> Path:
+        """What is kept of the keyframes to recognise them by."""
+        return self.root / "keyframes.npz"
+
+    @property
     def map(self) -> Path:
         """The labelled, coloured cloud."""
         return self.root / "map.ply"
@@ -75,6 +80,11 @@ class RunFolder:
     def config(self) -> Path:
         """Resolved settings."""
         return self.root / "config.toml"
+
+    @property
+    def input(self) -> Path:
+        """What the run was made from: the sequence and how it was opened."""
+        return self.root / "input.toml"
 
     @property
     def log(self) -> Path:

@@ -37,15 +37,20 @@ class AppearanceIndex:
         self._keyframes_of: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
         self._keyframes = 0
 
-    def words_of(self, descriptors: NDArray[Any]) -> NDArray[np.intp]:
-        """Return the word (n,) of each of the descriptors (N, D), new ones made where needed."""
+    def words_of(self, descriptors: NDArray[Any], grow: bool = True) -> NDArray[np.intp]:
+        """Return the word (n,) of each of the descriptors (N, D), new ones made where needed.
+
+        Without `grow` no new ones are made: descriptors far from every word are left out.
+        """
         descriptors = descriptors[: self.settings.features]
-        if not len(descriptors):
+        if not len(descriptors) or not (grow or len(self._words)):
             return np.empty(0, dtype=np.intp)
         limit = self._limit(descriptors)
         if not len(self._words):
             self._words = descriptors[:1].copy()
         distance = squared_distances(descriptors, self._words)
+        if not grow:
+            return np.asarray(distance.argmin(axis=1)[distance.min(axis=1) <= limit])
         fresh = descriptors[distance.min(axis=1) > limit]
         room = self.settings.max_words - len(self._words)
         leaders: list[int] = []

@@ -17,7 +17,7 @@ import open3d as o3d
 from rerun.chunk import RrdReader
 
 REQUIRED = (
-    "trajectory.tum", "frames.csv", "keyframes.tum", "pose_graph.g2o", "map.ply", "labels.json",
+    "trajectory.tum", "frames.csv", "keyframes.tum", "keyframes.npz", "pose_graph.g2o", "map.ply", "labels.json",
     "graph.json", "graph.graphml", "metrics.json", "config.toml", "run.log", "recording.rrd",
 )  # fmt: skip
 
