@@ -11,7 +11,6 @@ from app.metrics import place_metrics, trajectory_metrics
 from app.run_folder import UNREAD, RunFolder
 from datasets import poses
 from datasets.files import replacing
-from datasets.open import open_sequence
 from datasets.places import PlaceTruth, read_places
 from datasets.trajectory import Trajectory, read_tum
 from semantics.graph_io import read_graph_json
@@ -37,8 +36,8 @@ def evaluate_run(
     AppError
         The folder is no run's, or no truth is to be found.
     """
-    estimate, metrics = folder.read_trajectory(), folder.read_metrics()
-    truth, rooms = _truth(Path(metrics["sequence"]), groundtruth, places)
+    estimate = folder.read_trajectory()
+    truth, rooms = _truth(folder, groundtruth, places)
     found: dict[str, Any] = {}
     if truth is not None:
         found |= trajectory_metrics(estimate, truth)
@@ -86,11 +85,13 @@ def draw(path: Path, found: RunEvaluation) -> None:
 
 
 def _truth(
-    root: Path, groundtruth: Path | None, places: Path | None
+    folder: RunFolder, groundtruth: Path | None, places: Path | None
 ) -> tuple[Trajectory | None, PlaceTruth | None]:
     trajectory = read_tum(groundtruth) if groundtruth else None
     rooms = read_places(places) if places else None
-    if trajectory is None and rooms is None and root.is_dir():
-        sequence = open_sequence(root)
-        return sequence.ground_truth, sequence.places
+    if trajectory is None and rooms is None:
+        source = folder.read_input()
+        if source.sequence.is_dir():
+            sequence = source.open()
+            return sequence.ground_truth, sequence.places
     return trajectory, rooms

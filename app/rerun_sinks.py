@@ -57,15 +57,26 @@ def open_sinks(
     return recording
 
 
-def _open_window(port: int) -> None:
-    """Open the viewer's window, reachable from this machine only."""
+def find_viewer() -> str:
+    """Return the program that opens windows.
+
+    Raises
+    ------
+    AppError
+        It is not there, or there is no display to open one on.
+    """
     # The viewer comes with the package: its program lies beside the interpreter.
     program = shutil.which("rerun", path=str(Path(sys.executable).parent))
     headless = sys.platform == "linux" and not {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
     if program is None or headless:
         raise _no_window("no display" if program else "no program `rerun`")
+    return program
+
+
+def _open_window(port: int) -> None:
+    """Open the viewer's window, reachable from this machine only."""
     window = subprocess.Popen(
-        [program, "--bind", "127.0.0.1", "--port", str(port), "--hide-welcome-screen"],
+        [find_viewer(), "--bind", "127.0.0.1", "--port", str(port), "--hide-welcome-screen"],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
     )  # fmt: skip
     give_up = time.monotonic() + PATIENCE_S

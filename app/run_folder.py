@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import AppError
+from app.input import InputOptions, read_input
 from datasets.trajectory import Trajectory, read_tum
 
 # Only a folder that holds all of these is a run, and may be overwritten.
@@ -109,6 +110,10 @@ class RunFolder:
                 "figures of another kind", where=self.metrics, expected="schema roomgraph/metrics/1"
             )
         return values
+
+    def read_input(self) -> InputOptions:
+        """Return how the run's sequence was opened."""
+        return read_input(self._existing(self.input))
 
     def read_trajectory(self) -> Trajectory:
         """Return the poses of the tracked frames."""

@@ -10,6 +10,7 @@ from typing import Any
 from app.config import AppSettings, write_settings
 from app.console import Terminal
 from app.errors import AppError
+from app.input import InputOptions, write_input
 from app.pipeline import Pipeline
 from app.recorder import Recorder
 from app.run_folder import RunFolder, make_run_folder
@@ -36,12 +37,21 @@ def map_sequence(
     overwrite: bool,
     showing: Showing,
     terminal: Terminal,
+    options: InputOptions | None = None,
 ) -> tuple[RunFolder, dict[str, Any]]:
-    """Map and label a sequence into a new run folder; return it with the run's metrics."""
+    """Map and label a sequence into a new run folder; return it with the run's metrics.
+
+    `options` say how the sequence was opened, if otherwise than by its path alone.
+    """
+    if showing.live:
+        from app.rerun_sinks import find_viewer
+
+        find_viewer()
     folder = make_run_folder(output, sequence.name, overwrite)
     with terminal.logging(folder.log):
         settings = _with_features_of(model, settings)
         write_settings(folder.config, settings)
+        write_input(folder.input, options or InputOptions(sequence=sequence.root))
         logger.info("sequence %s, %d frames", sequence.root, len(sequence))
         for note in sequence.notes:
             logger.info("%s", note)

@@ -40,17 +40,22 @@ def run(
     """
     from app.config import load_settings
     from app.console import Terminal
-    from app.input import open_input
+    from app.input import InputOptions
     from app.report import summary
     from app.session import Showing, map_sequence
     from semantics.model_io import load_model
 
     terminal = Terminal(quiet, verbose)
     settings = load_settings(config, {"seed": seed, "slam.max_depth_m": max_depth})
-    opened = open_input(sequence, dataset, camera, depth_scale, start, frames, stride)
+    source = InputOptions(
+        sequence=sequence, dataset=dataset, camera=camera, depth_scale=depth_scale,
+        start=start, frames=frames, stride=stride,
+    )  # fmt: skip
+    opened = source.open()
     places = load_model(model) if model is not None else None
     folder, metrics = map_sequence(
-        opened, settings, places, output, overwrite, Showing(visualize, save_rrd), terminal
-    )
+        opened, settings, places, output, overwrite, Showing(visualize, save_rrd), terminal,
+        source,
+    )  # fmt: skip
     terminal.say(summary(metrics))
     terminal.say(f"Written to {folder.root}; look at it with: roomgraph view {folder.root}")

@@ -1,0 +1,55 @@
+"""How a sequence was opened is remembered with the run."""
+
+import shutil
+import sys
+
+import pytest
+
+from app.errors import AppError
+from app.input import InputOptions, read_input, write_input
+from app.main import main
+from app.run_folder import RunFolder
+
+
+def roomgraph(monkeypatch, *arguments):
+    monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])
+    with pytest.raises(SystemExit) as exit_:
+        main()
+    return exit_.value.code or 0
+
+
+def test_options_survive_the_disk(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    options = InputOptions(sequence="walk", camera="c.json", depth_scale=1000, start=3, stride=2)
+    write_input(tmp_path / "input.toml", options)
+    read = read_input(tmp_path / "input.toml")
+    assert read.sequence == tmp_path / "walk"
+    assert read.camera == tmp_path / "c.json"
+    assert (read.depth_scale, read.start, read.stride, read.frames) == (1000, 3, 2, None)
+
+
+@pytest.mark.parametrize("text", ["[sequence", "stride = 2\n", 'sequence = "a"\nstrid = 2\n'])
+def test_what_are_no_options_is_refused(tmp_path, text):
+    (tmp_path / "input.toml").write_text(text)
+    with pytest.raises(AppError, match=r"input\.toml"):
+        read_input(tmp_path / "input.toml")
+
+
+def test_eval_opens_the_sequence_as_the_run_did(rendered_walk, tmp_path, monkeypatch, capsys):
+    walk, camera, out = tmp_path / "walk", tmp_path / "camera.json", tmp_path / "out"
+    shutil.copytree(rendered_walk, walk)
+    (walk / "camera.json").rename(camera)
+    flags = ("--camera", camera, "--stride", "2", "--frames", "12", "--no-rrd", "--quiet")
+    assert roomgraph(monkeypatch, "run", walk, "-o", out, *flags) == 0
+    assert len(RunFolder(out).read_input().open()) == 12
+    assert roomgraph(monkeypatch, "eval", out) == 0
+    ate = RunFolder(out).read_metrics()["ate_rmse_m"]
+    assert f"{ate * 100:.2f} cm" in capsys.readouterr().out
+
+
+def test_watching_without_a_display_leaves_nothing_behind(rendered_walk, tmp_path, monkeypatch):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    arguments = ("run", rendered_walk, "-o", tmp_path / "out", "-v", "--quiet")
+    assert roomgraph(monkeypatch, *arguments) == 1
+    assert not (tmp_path / "out").exists()
