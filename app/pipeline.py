@@ -28,6 +28,7 @@ from semantics.topology import TopologicalMap
 from slam.map import PointMap
 from slam.memory import remember
 from slam.slam import Slam
+from slam.survey import Survey, survey
 from slam.tracking import Tracking, TrackingState
 from slam.view import View
 
@@ -160,6 +161,8 @@ class Pipeline:
         with self.clock.stage("map"):
             points = self.slam.build_map()
         view = self._map_view(points)
+        with self.clock.stage("survey"):
+            surveyed = self._survey()
         graph = self.topology.snapshot(self.slam.keyframe_poses)
         trajectory = self._trajectory()
         with self.clock.stage("write"):
@@ -171,6 +174,8 @@ class Pipeline:
                 )
             self.recorder.write_memory(remember(keyframes.values(), self.slam.keyframe_poses))
             self.recorder.write_map(points, view.label_ids, self.labels)
+            if surveyed is not None:
+                self.recorder.write_occupancy(surveyed.grid)
         with self.clock.stage("close"):
             last = max(0, len(self._labelled) - 1)
             self.viewer.show_map(last, lambda: view)
@@ -181,6 +186,17 @@ class Pipeline:
         )
         self.recorder.write_metrics(metrics)
         return metrics
+
+    def _survey(self) -> Survey | None:
+        """Find the floor and the free space of the map as it is now."""
+        settings = self.settings.slam
+        found = survey(
+            self.slam.keyframes, self.slam.mapper.graph, settings.ground, settings.space,
+            settings.noise,
+        )  # fmt: skip
+        for warning in () if found is None else found.warnings:
+            logger.warning("%s", warning)
+        return found
 
     def _trajectory(self) -> Trajectory:
         tracked = [

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.cloud_io import write_cloud
+from app.occupancy_io import write_occupancy
 from app.run_folder import FRAME_COLUMNS, UNREAD, RunFolder
 from datasets.files import write_text
 from datasets.trajectory import Trajectory, write_tum
@@ -20,6 +21,7 @@ from semantics.labeller import FrameLabel
 from semantics.labels import LabelSpace, write_labels
 from slam.map import PointMap
 from slam.memory import KeyframeMemory, write_memory
+from slam.occupancy import OccupancyGrid
 from slam.pose_graph import PoseGraph
 from slam.tracking import Tracking, TrackingState
 
@@ -72,6 +74,10 @@ class Recorder:
         write_labels(self.folder.labels, labels)
         if len(points):
             write_cloud(self.folder.map, points.points_world, points.colours, label_ids)
+
+    def write_occupancy(self, grid: OccupancyGrid) -> None:
+        """Write where there is free way and where there is none."""
+        write_occupancy(self.folder.occupancy, grid)
 
     def write_graph(self, graph: SemanticGraph) -> None:
         """Write the topological graph."""

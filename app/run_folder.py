@@ -58,6 +58,11 @@ class RunFolder:
         return self.root / "map.ply"
 
     @property
+    def occupancy(self) -> Path:
+        """The occupancy grid for ROS and Nav2, with its picture ``map.pgm`` beside it."""
+        return self.root / "map.yaml"
+
+    @property
     def labels(self) -> Path:
         """The label space."""
         return self.root / "labels.json"

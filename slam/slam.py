@@ -13,17 +13,19 @@ from datasets.frame import Frame
 from datasets.settings import Settings
 from slam.appearance import AppearanceSettings
 from slam.features import FeatureExtractor, FeatureSettings
+from slam.ground import GroundSettings
 from slam.icp import IcpSettings
 from slam.keyframe import Keyframe
 from slam.linker import Linker
 from slam.local_map import LocalMap
 from slam.loops import LoopCloser, LoopSettings
-from slam.map import MapSettings, PointMap, build_map
+from slam.map import LiveMap, MapSettings, PointMap, build_map
 from slam.mapper import Coarse, KeyframeSettings, Mapper
 from slam.motion import MotionSettings
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings
 from slam.pose_graph import PoseGraph, PoseGraphSettings
+from slam.space import SpaceSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
 from slam.tracker import Located, Tracker, TrackerSettings
 from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
@@ -50,6 +52,8 @@ class SlamSettings(Settings):
     pose_graph: PoseGraphSettings = PoseGraphSettings()
     textureless: TexturelessSettings = TexturelessSettings()
     map: MapSettings = MapSettings()
+    ground: GroundSettings = GroundSettings()
+    space: SpaceSettings = SpaceSettings()
 
 
 class Slam:
@@ -79,6 +83,7 @@ class Slam:
         self._depth_odometry = DepthOdometry(
             settings.textureless, settings.planes, settings.icp, settings.noise, seed
         )
+        self._live_map = LiveMap(settings.map, settings.noise)
         self._around: LocalMap | None = None
         self._last: Anchor | None = None
         self._last_view: View | None = None
@@ -122,13 +127,13 @@ class Slam:
 
     def build_map(self) -> PointMap:
         """Fuse all keyframes' points at their present poses."""
-        return build_map(self.keyframes.values(), self.keyframe_poses, self.settings.map.voxel_m)
+        return build_map(
+            self.keyframes.values(), self.keyframe_poses, self.settings.map, self.settings.noise
+        )
 
     def sketch_map(self) -> PointMap:
-        """Fuse an eighth of the points, coarsely: a map to look at while the run goes on."""
-        return build_map(
-            self.keyframes.values(), self.keyframe_poses, 2.5 * self.settings.map.voxel_m, every=8
-        )
+        """Return a coarse map to look at while the run goes on."""
+        return self._live_map.update(self.keyframes, self.keyframe_poses)
 
     def _begin(self, view: View) -> Tracking:
         keyframe = self.mapper.start(view, np.eye(4))
