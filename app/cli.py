@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from app.commands.bench import bench
 from app.commands.config import config
 from app.commands.demo import demo
 from app.commands.eval import evaluate
@@ -71,6 +72,6 @@ def _guarded(command: Callable[..., None]) -> Callable[..., None]:
     return run_command
 
 
-for _command in (demo, run, train, label, view, export, synth, config):
+for _command in (demo, run, train, label, view, export, synth, bench, config):
     cli.command()(_guarded(_command))
 cli.command("eval")(_guarded(evaluate))

@@ -34,6 +34,11 @@ class StageClock:
         """Seconds since this clock was made."""
         return time.perf_counter() - self._start
 
+    def samples_s(self, name: str) -> list[float]:
+        """Return the durations of a stage so far, seconds, in the order in which they ended."""
+        with self._lock:
+            return list(self._seconds[name]) if name in self._seconds else []
+
     def summary(self) -> dict[str, dict[str, float]]:
         """Return median, 95th percentile, total (milliseconds) and count of each stage."""
         return {

@@ -49,7 +49,7 @@ def map_sequence(
         find_viewer()
     folder = make_run_folder(output, sequence.name, overwrite)
     with terminal.logging(folder.log):
-        settings = _with_features_of(model, settings)
+        settings = with_features_of(model, settings)
         write_settings(folder.config, settings)
         write_input(folder.input, options or InputOptions(sequence=sequence.root))
         logger.info("sequence %s, %d frames", sequence.root, len(sequence))
@@ -69,7 +69,7 @@ def map_sequence(
     return folder, metrics
 
 
-def _with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:
+def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:
     """Describe frames as the model's training images were: features are computed only once."""
     if model is None or model.features == settings.slam.features:
         return settings

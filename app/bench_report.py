@@ -1,0 +1,104 @@
+"""Benchmark figures for people: a table, and a picture of time and memory over the run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.table import Table
+
+from app.bench_worker import BenchRun
+from datasets.files import replacing
+
+Summary = Mapping[str, Any]
+
+
+def _ate(summary: Summary) -> str:
+    return f"{summary['ate_rmse_m'] * 100:.2f} cm" if "ate_rmse_m" in summary else "-"
+
+
+def _rpe(summary: Summary) -> str:
+    if "rpe_trans_rmse_m" not in summary:
+        return "-"
+    return f"{summary['rpe_trans_rmse_m'] * 100:.2f} cm, {summary['rpe_rot_rmse_deg']:.3f}°"
+
+
+def _same(summary: Summary) -> str:
+    known = {True: "yes", False: "no", None: "- (one repeat)"}
+    return known[summary["deterministic"]]
+
+
+ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
+    ("frames", lambda s: f"{s['frames']}, {s['repeats']} x"),
+    ("labelling", lambda s: "on" if s["model"] else "off"),
+    ("frames/s", lambda s: f"{s['fps']:.1f}"),
+    ("frame, ms (median, p95)", lambda s: f"{s['frame_ms']['median']:.1f}, "
+                                          f"{s['frame_ms']['p95']:.1f}"),
+    ("  first, last tenth", lambda s: f"{s['frame_ms']['first_tenth']:.1f}, "
+                                      f"{s['frame_ms']['last_tenth']:.1f} "
+                                      f"(x {s['frame_ms']['growth']:.2f})"),
+    ("processor ms a frame", lambda s: f"{s['cpu_ms_per_frame']:.1f}"),
+    ("memory at most", lambda s: f"{s['peak_rss_mb']:.0f} MB"),
+    ("  first, last tenth", lambda s: f"{s['memory_mb']['first_tenth']:.0f}, "
+                                      f"{s['memory_mb']['last_tenth']:.0f} MB"),
+    ("ATE", _ate),
+    ("RPE a frame", _rpe),
+    ("lost", lambda s: f"{s['share_lost']:.1%}"),
+    ("same bytes each time", _same),
+)  # fmt: skip
+
+
+def table(summaries: Sequence[Summary], cost: Mapping[str, float]) -> Table:
+    """Return a table with a column for each sequence, with its figures and its stages."""
+    shown = Table("", *(str(s["sequence"]) for s in summaries), box=None, padding=(0, 2, 0, 0))
+    for title, cell in ROWS:
+        shown.add_row(title, *(cell(s) for s in summaries))
+    if cost:
+        costs = [f"{cost[s['sequence']]:+.1%}" if s["model"] else "" for s in summaries]
+        shown.add_row("labelling costs", *costs)
+    shown.add_row()
+    shown.add_row("stages, ms (median, p95)", style="dim")
+    stages = dict.fromkeys(stage for s in summaries for stage in s["stage_ms"])
+    for stage in stages:
+        shown.add_row(f"  {stage}", *(_stage(s["stage_ms"].get(stage)) for s in summaries))
+    return shown
+
+
+def draw(path: Path, runs: Sequence[BenchRun]) -> None:
+    """Draw frame time and memory against the frame's number, a line for each repeat."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10, 6), layout="constrained")
+    times, memory = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    for number, run in enumerate(runs, 1):
+        frames = np.arange(len(run.frame_ms))
+        label = f"repeat {number}" if len(runs) > 1 else None
+        times.plot(frames, run.frame_ms, ".", ms=2, alpha=0.35, color=f"C{number - 1}")
+        smooth = _running_median(np.array(run.frame_ms))
+        times.plot(frames, smooth, color=f"C{number - 1}", label=label)
+        memory.plot(run.memory_mb, color=f"C{number - 1}")
+    # A few hiccups of the machine must not squeeze everything else.
+    top = 1.3 * max(float(np.percentile(run.frame_ms, 99)) for run in runs)
+    times.set(
+        ylabel="features + tracking (ms)", ylim=(0, top),
+        title=f"{runs[0].name}: time and memory by frame, with running medians",
+    )  # fmt: skip
+    memory.set(ylabel="resident memory (MB)", ylim=(0, None), xlabel="frame")
+    if len(runs) > 1:
+        times.legend(frameon=False)
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=120)
+
+
+def _stage(figures: Mapping[str, float] | None) -> str:
+    return f"{figures['median']:.1f}, {figures['p95']:.1f}" if figures is not None else "-"
+
+
+def _running_median(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the median of each value's surroundings, a fortieth of all wide."""
+    from scipy.ndimage import median_filter
+
+    return np.asarray(median_filter(values, max(3, len(values) // 40), mode="nearest"))

@@ -1,0 +1,115 @@
+"""``roomgraph bench``: what mapping a sequence takes, and how good it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app import options
+
+
+def bench(
+    sequences: Annotated[
+        list[Path], typer.Argument(metavar="SEQUENCE...", help="Folders of RGB-D sequences.")
+    ],
+    repeat: Annotated[
+        int, typer.Option("--repeat", metavar="N", min=1, help="Times each is run; medians count.")
+    ] = 3,
+    laps: Annotated[
+        int,
+        typer.Option(
+            "--laps",
+            metavar="N",
+            min=0,
+            help="Play it forward and backward N times.",
+            show_default="once, forward",
+        ),
+    ] = 0,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print JSON, and nothing else, on standard output.")
+    ] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="DIR",
+            help="Write bench.json, with the time of each frame, and a picture a sequence.",
+        ),
+    ] = None,
+    model: Annotated[
+        Path | None,
+        typer.Option(
+            "--model", metavar="DIR", help="Place model; each is run without and with it."
+        ),
+    ] = None,
+    dataset: options.DatasetOption = None,
+    camera: options.CameraOption = None,
+    depth_scale: options.DepthScaleOption = None,
+    config: options.ConfigOption = None,
+    start: options.StartOption = 0,
+    frames: options.FramesOption = None,
+    stride: options.StrideOption = 1,
+    max_depth: options.MaxDepthOption = None,
+    seed: options.SeedOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+) -> None:
+    """Measure what mapping sequences takes: time by stage, memory, accuracy.
+
+    Each run has a process of its own and neither viewer nor recording. Told are medians over the
+    repeats, whether a frame costs more at the end of the run than at its beginning, and whether
+    all repeats gave the same trajectory to the byte.
+
+    Examples:
+
+      roomgraph bench rgbd_dataset_freiburg1_room
+
+      roomgraph bench kitchen office --repeat 5 --json > bench.json
+
+      roomgraph bench kitchen --laps 3 -o flat
+
+      roomgraph bench kitchen --model places
+    """
+    from json import dumps
+
+    from app.bench import frame_times, labelling_cost, report, run_all, summarise
+    from app.bench_report import draw, table
+    from app.bench_worker import BenchJob
+    from app.config import load_settings
+    from app.console import Terminal
+    from app.input import InputOptions
+    from app.run_folder import clear_output
+    from datasets.files import write_text
+
+    terminal = Terminal(quiet or json)
+    settings = load_settings(config, {"seed": seed, "slam.max_depth_m": max_depth})
+    if output is not None:
+        clear_output(output, overwrite, ("bench.json",))
+    jobs = [
+        BenchJob(
+            InputOptions(
+                sequence=path, dataset=dataset, camera=camera, depth_scale=depth_scale,
+                start=start, frames=frames, stride=stride,
+            ),
+            settings, places, laps,
+        )
+        for path in sequences
+        for places in ((None, model) if model is not None else (None,))
+    ]  # fmt: skip
+    with terminal.progress("Measuring") as advance:
+        runs = run_all(jobs, repeat, advance)
+    summaries = [summarise(repeats, job) for repeats, job in zip(runs, jobs, strict=True)]
+    found = report(summaries)
+    terminal.say(table(summaries, labelling_cost(summaries)))
+    if output is not None:
+        output.mkdir(parents=True)
+        whole = found | {"frame_times": [frame_times(repeats) for repeats in runs]}
+        write_text(output / "bench.json", dumps(whole, indent=1) + "\n")
+        for number, repeats in enumerate(runs):
+            draw(output / f"{number + 1}-{repeats[0].name}.png", repeats)
+        terminal.say(f"Written to {output}")
+    if json:
+        typer.echo(dumps(found, indent=1))

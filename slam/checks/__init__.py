@@ -1,0 +1,6 @@
+"""Checks of a sequence against itself: unit of depth, camera, registration, time."""
+
+from slam.checks.finding import Finding
+from slam.checks.sequence import CheckSettings, check_sequence
+
+__all__ = ["CheckSettings", "Finding", "check_sequence"]

@@ -1,0 +1,62 @@
+"""Whether a camera's numbers can belong to its images."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from pydantic import Field
+
+from datasets.camera import Intrinsics
+from datasets.settings import Settings
+from slam.checks.finding import Finding
+
+
+class IntrinsicsSettings(Settings):
+    """What a camera's numbers look like when they are those of its images."""
+
+    near_middle: float = Field(
+        0.05, gt=0, lt=0.5,
+        description="a principal point this near the middle, as a share of the size, is in it",
+    )  # fmt: skip
+    off_middle: float = Field(
+        0.15, gt=0, lt=0.5, description="one this far off is out of the way for an uncropped image"
+    )
+    min_view_deg: float = Field(20, gt=0, lt=180, description="narrowest field of view across")
+    max_view_deg: float = Field(140, gt=0, lt=180, description="widest field of view across")
+
+
+def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) -> Finding | None:
+    """Judge the numbers alone: principal point and field of view against the images' size."""
+    width, height = intrinsics.width, intrinsics.height
+    off = _off_middle(intrinsics, width, height)
+    scale = round((intrinsics.cx + 0.5) / width + (intrinsics.cy + 0.5) / height, 2)
+    turned = replace(intrinsics, cx=intrinsics.cy, cy=intrinsics.cx)
+    suggestion = None
+    if off > 2 * settings.near_middle and _off_middle(turned, width, height) < settings.near_middle:
+        suggestion = "cx and cy look swapped (fx and fy may be too): check the camera file"
+    elif off > settings.off_middle and (
+        _off_middle(intrinsics, scale * width, scale * height) < settings.near_middle
+    ):
+        suggestion = (
+            f"the camera file seems to be for images of {scale * width:.0f}x{scale * height:.0f}: "
+            f"divide fx, fy, cx and cy by {scale:g}"
+        )
+    elif off > settings.off_middle:
+        suggestion = "check the camera file (--camera), unless the images were cropped"
+    if suggestion is not None:
+        where = f"cx {intrinsics.cx:g}, cy {intrinsics.cy:g} in images of {width}x{height}"
+        return Finding("intrinsics", f"the principal point is off the middle: {where}", suggestion)
+    view = float(np.degrees(2 * np.arctan(width / 2 / intrinsics.fx)))
+    if not settings.min_view_deg <= view <= settings.max_view_deg:
+        return Finding(
+            "intrinsics", f"fx {intrinsics.fx:g} gives a field of view of {view:.0f} degrees",
+            "check that fx and fy are in pixels of these images (--camera)",
+        )  # fmt: skip
+    return None
+
+
+def _off_middle(intrinsics: Intrinsics, width: float, height: float) -> float:
+    """Return how far the principal point lies from the middle of a size, as a share of it."""
+    x, y = (intrinsics.cx + 0.5) / width, (intrinsics.cy + 0.5) / height
+    return max(abs(x - 0.5), abs(y - 0.5))

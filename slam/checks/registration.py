@@ -1,0 +1,155 @@
+"""Whether the depth image lies on the colour image."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+from scipy import fft
+
+from datasets.settings import Settings
+from slam.checks.edges import Outlines
+from slam.checks.statistics import paired_t
+
+FloatArray = NDArray[np.float64]
+
+
+class RegistrationSettings(Settings):
+    """How far off the depth image is looked for, and when it counts as misplaced."""
+
+    reach: float = Field(
+        0.1, gt=0, le=0.3, description="shifts searched, as a share of the image's width"
+    )
+    scale_range: float = Field(
+        0.16, ge=0, le=0.4, description="sizes searched: this share smaller to this share larger"
+    )
+    tolerance: float = Field(
+        0.015, gt=0, le=0.2,
+        description="typical displacement that is let pass, as a share of the image's width",
+    )  # fmt: skip
+    min_outline: int = Field(100, ge=10, description="frames with fewer outline pixels don't vote")
+    min_frames: int = Field(8, ge=4, description="fewer voting frames decide nothing")
+    min_score: float = Field(
+        0.3, gt=0, description="strength of colour edges that outlines have to lie on"
+    )
+    min_t: float = Field(4.0, ge=2, description="paired t value against an undisplaced depth image")
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """Where a pixel of the depth image is seen in colour: scaled about the middle and shifted."""
+
+    scale: float = 1.0
+    dx: float = 0.0
+    dy: float = 0.0
+
+    def apply(self, pixels: NDArray[np.float32], shape: tuple[int, ...]) -> FloatArray:
+        """Move pixels (N, 2) of an image of a shape (h, w)."""
+        middle = np.array([shape[1] - 1, shape[0] - 1]) / 2
+        return np.asarray(self.scale * (pixels - middle) + middle + (self.dx, self.dy))
+
+    def displacement(self, shape: tuple[int, ...]) -> float:
+        """Return the root mean square of how far it moves the pixels of an image (h, w)."""
+        spread = (shape[0] ** 2 + shape[1] ** 2) / 12
+        return float(np.sqrt(self.dx**2 + self.dy**2 + (self.scale - 1) ** 2 * spread))
+
+
+@dataclass(frozen=True, slots=True)
+class Misplaced:
+    """The alignment that depth needs, in image pixels, and how well outlines then fit."""
+
+    alignment: Alignment
+    score: float
+
+
+def score(found: Outlines, alignment: Alignment | None = None) -> float:
+    """Return how strong the colour edges are under the depth's outline; 0 is no relation at all."""
+    if not len(found.pixels):
+        return 0.0
+    pixels = found.pixels
+    if alignment is not None:
+        pixels = alignment.apply(pixels, found.edges.shape).astype(np.float32)
+    return under(pixels, found.edges)
+
+
+def under(pixels: NDArray[np.float32], edges: NDArray[np.float32]) -> float:
+    """Return the mean of `edges` (h, w) at pixels (N, 2); outside of the image it is 0."""
+    x, y = np.rint(pixels.T).astype(np.intp)
+    height, width = edges.shape
+    inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+    return float(edges[y[inside], x[inside]].sum() / len(pixels))
+
+
+def find_misplacement(
+    frames: Sequence[Outlines], settings: RegistrationSettings
+) -> Misplaced | None:
+    """Return how depth lies beside colour, or None where it fits or nothing can be said.
+
+    Outlines of the foreground are edges in the colour image too, if the one lies on the other.
+    Over all sizes and shifts, the correlation of both has its peak at the true alignment. It is
+    searched in each half of the frames and believed if both halves agree and if the frames of
+    the one fit better under the alignment of the other than without any.
+    """
+    voting = [f for f in frames if len(f.pixels) >= settings.min_outline]
+    if len(voting) < settings.min_frames:
+        return None
+    shape = voting[0].edges.shape
+    tolerance = settings.tolerance * shape[1]
+    halves = voting[::2], voting[1::2]
+    first, second = (_search(half, settings) for half in halves)
+    between = Alignment(1 + first.scale - second.scale, first.dx - second.dx, first.dy - second.dy)
+    if between.displacement(shape) > tolerance:
+        return None
+    if min(first.displacement(shape), second.displacement(shape)) <= tolerance:
+        return None
+    moved = [score(f, second) for f in halves[0]] + [score(f, first) for f in halves[1]]
+    unmoved = [score(f) for half in halves for f in half]
+    if np.mean(moved) < settings.min_score or paired_t(moved, unmoved) < settings.min_t:
+        return None
+    step = voting[0].step
+    alignment = Alignment(
+        (first.scale + second.scale) / 2,
+        (first.dx + second.dx) / 2 * step, (first.dy + second.dy) / 2 * step,
+    )  # fmt: skip
+    return Misplaced(alignment, float(np.mean(moved)))
+
+
+def _search(frames: Sequence[Outlines], settings: RegistrationSettings) -> Alignment:
+    """Return the alignment, in working pixels, at which outlines lie on the strongest edges."""
+    shape = frames[0].edges.shape
+    reach = round(settings.reach * shape[1])
+    # A pad as wide as the reach keeps the correlation from wrapping round.
+    padded = tuple(int(fft.next_fast_len(side + reach, real=True)) for side in shape)
+    spectra = [fft.rfft2(f.edges, padded) for f in frames]
+    window = np.arange(-reach, reach + 1)
+    best, highest = Alignment(), -np.inf
+    for scale in _scales(shape, settings.scale_range):
+        product = np.zeros_like(spectra[0])
+        for frame, spectrum in zip(frames, spectra, strict=True):
+            product += spectrum * np.conj(fft.rfft2(_drawn(frame, scale), padded))
+        surface = fft.irfft2(product, padded)[np.ix_(window, window)]
+        if surface.max() > highest:
+            highest = float(surface.max())
+            y, x = np.unravel_index(int(surface.argmax()), surface.shape)
+            best = Alignment(float(scale), float(x - reach), float(y - reach))
+    return best
+
+
+def _scales(shape: tuple[int, ...], scale_range: float) -> FloatArray:
+    """Return sizes whose neighbours differ by two edge widths at the sides of the image."""
+    step = 4.0 / (shape[1] / 2)
+    count = int(scale_range / step)
+    return np.asarray(1 + step * np.arange(-count, count + 1))
+
+
+def _drawn(frame: Outlines, scale: float) -> NDArray[np.float32]:
+    """Draw the outline, scaled about the middle, with a sum of 1."""
+    height, width = frame.edges.shape
+    image = np.zeros((height, width), np.float32)
+    x, y = np.rint(Alignment(scale).apply(frame.pixels, image.shape).T).astype(np.intp)
+    inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+    np.add.at(image, (y[inside], x[inside]), np.float32(1 / len(frame.pixels)))
+    return image

@@ -1,0 +1,138 @@
+"""All checks on a sequence, from some stretches of its frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from datasets.errors import DatasetError
+from datasets.frame import Frame
+from datasets.sequence import Sequence
+from datasets.settings import Settings
+from slam.checks.delay import Delay, DelaySettings, find_delay
+from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
+from slam.checks.edges import Outlines, outlines
+from slam.checks.finding import Finding
+from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
+from slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
+
+# Of each frame, every so manieth row and column goes into the statistics of depth.
+DEPTH_STEP = 8
+# Of each window, every so manieth frame says whether depth lies on colour: its neighbours see
+# the same.
+REGISTRATION_STEP = 2
+
+
+class CheckSettings(Settings):
+    """What is looked at before a run to see that the data can be right."""
+
+    enabled: bool = Field(True, description="look at the data before a run and warn")
+    windows: int = Field(6, ge=1, le=100, description="stretches of successive frames looked at")
+    window: int = Field(10, ge=1, le=100, description="frames in each")
+    intrinsics: IntrinsicsSettings = IntrinsicsSettings()
+    depth_scale: DepthScaleSettings = DepthScaleSettings()
+    registration: RegistrationSettings = RegistrationSettings()
+    delay: DelaySettings = DelaySettings()
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """What the checks need of the frames, which are let go.
+
+    Attributes
+    ----------
+    windows : tuple of tuple of Outlines
+        Of successive frames each.
+    depths_m : (N,) float32
+        Readings from all over the frames, metres; none is 0.
+    """
+
+    windows: tuple[tuple[Outlines, ...], ...]
+    depths_m: NDArray[np.float32]
+
+
+def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding, ...]:
+    """Return what the data says against itself, the likeliest cause of each contradiction.
+
+    Frames that cannot be read are left to those that need them.
+    """
+    camera = sequence.camera
+    found = [find_wrong_intrinsics(camera.intrinsics, settings.intrinsics)]
+    evidence = _gather(sequence, settings)
+    scale = find_wrong_scale(evidence.depths_m, camera.depth_scale, settings.depth_scale)
+    if scale is not None:
+        hint = (
+            f"--depth-scale {scale.depth_scale:g} would be plausible"
+            if scale.depth_scale
+            else "check --depth-scale"
+        )
+        found.append(Finding(
+            "depth scale",
+            f"half of the depth readings lie beyond {scale.median_m:.3g} m "
+            f"at {camera.depth_scale:g} units a metre", hint,
+        ))  # fmt: skip
+    found.append(_out_of_step(sequence, evidence, settings))
+    return tuple(finding for finding in found if finding is not None)
+
+
+def _gather(sequence: Sequence, settings: CheckSettings) -> Evidence:
+    windows, depths = [], []
+    for window in _windows(len(sequence), settings.windows, settings.window):
+        try:
+            frames = [sequence[index] for index in window]
+        except DatasetError:
+            continue
+        depths += [_sampled(frame) for frame in frames[::REGISTRATION_STEP]]
+        windows.append(tuple(outlines(frame) for frame in frames))
+    return Evidence(tuple(windows), np.concatenate(depths) if depths else np.empty(0, np.float32))
+
+
+def _windows(frames: int, count: int, length: int) -> list[range]:
+    """Return up to `count` stretches of frames, evenly spread and not overlapping."""
+    count = min(count, max(1, frames // length))
+    starts = np.linspace(0, max(0, frames - length), count).astype(int)
+    return [range(int(start), min(int(start) + length, frames)) for start in starts]
+
+
+def _sampled(frame: Frame) -> NDArray[np.float32]:
+    depth = frame.depth[::DEPTH_STEP, ::DEPTH_STEP]
+    return np.asarray(depth[depth > 0])
+
+
+def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings) -> Finding | None:
+    """Say where depth and colour do not belong together: in place, or in time.
+
+    Each can look like the other while the camera moves evenly: the better fit is believed.
+    """
+    delay = find_delay(evidence.windows, settings.delay)
+    spread = [frame for window in evidence.windows for frame in window[::REGISTRATION_STEP]]
+    misplaced = find_misplacement(spread, settings.registration)
+    if delay is not None and (misplaced is None or delay.score >= misplaced.score):
+        return _late(delay, sequence)
+    return _unregistered(misplaced) if misplaced is not None else None
+
+
+def _late(delay: Delay, sequence: Sequence) -> Finding:
+    period = float(np.median(np.diff(sequence.stamps_s)))
+    frames = f"{abs(delay.frames)} frame{'s' if abs(delay.frames) > 1 else ''}"
+    seconds, sign = abs(delay.frames) * period, "-" if delay.frames > 0 else "+"
+    return Finding(
+        "time offset",
+        f"depth images are {frames} ({seconds:.3g} s) {'late' if delay.frames > 0 else 'early'}: "
+        "their outlines fit colour images of another time",
+        f"shift the depth's time stamps by {sign}{seconds:.3g} s, or pair the images anew",
+    )
+
+
+def _unregistered(misplaced: Misplaced) -> Finding:
+    alignment = misplaced.alignment
+    scaled = f"scaled by {alignment.scale:.2f} and " if abs(alignment.scale - 1) >= 0.01 else ""
+    return Finding(
+        "registration",
+        "depth does not lie on colour: its outlines fit when "
+        f"{scaled}shifted by ({alignment.dx:+.0f}, {alignment.dy:+.0f}) pixels",
+        "register the depth to the colour camera when recording (align depth to colour)",
+    )
