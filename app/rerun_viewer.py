@@ -22,7 +22,6 @@ from app.rerun_sinks import open_sinks
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
-from slam.map import PointMap
 from slam.tracking import Tracking, TrackingState
 
 __all__ = ["RerunViewer", "ViewerSettings"]
@@ -223,6 +222,4 @@ def thinned_map(view: MapView, at_most: int) -> MapView:
     if count <= at_most:
         return view
     chosen = np.sort(np.random.default_rng(0).choice(count, at_most, replace=False))
-    points = view.points
-    kept = PointMap(points.points_world[chosen], points.colours[chosen], points.keyframes[chosen])
-    return replace(view, points=kept, label_ids=view.label_ids[chosen])
+    return replace(view, points=view.points.chosen(chosen), label_ids=view.label_ids[chosen])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from datasets.camera import Intrinsics
 from slam.features import Features
 from slam.planes import Plane
-from slam.view import View, without_edges
+from slam.range_image import RangeImage
 
 FloatArray = NDArray[np.float64]
 
@@ -31,10 +31,8 @@ class Keyframe:
         Where they lie in the keyframe's camera, metres; NaN without depth.
     planes : tuple of Plane
         The large surfaces seen.
-    cloud : (M, 3) float32
-        A thinned depth image, in the keyframe's camera, metres.
-    colours : (M, 3) uint8
-        Of the cloud.
+    image : RangeImage
+        The thinned depth image with its colours.
     intrinsics : Intrinsics
         The camera.
     """
@@ -45,22 +43,15 @@ class Keyframe:
     features: Features
     points: FloatArray
     planes: tuple[Plane, ...]
-    cloud: NDArray[np.float32]
-    colours: NDArray[np.uint8]
+    image: RangeImage
     intrinsics: Intrinsics
 
+    @property
+    def cloud(self) -> NDArray[np.float32]:
+        """The points (M, 3) of the thinned depth image, in the keyframe's camera, metres."""
+        return self.image.points
 
-def cloud_of(
-    view: View, stride: int, max_depth_m: float
-) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
-    """Return every `stride`-th pixel's point (M, 3), float32 metres, and colour (M, 3) uint8.
-
-    Readings on depth edges and beyond `max_depth_m` are left out.
-    """
-    frame = view.frame
-    depth = without_edges(frame.depth)[stride // 2 :: stride, stride // 2 :: stride]
-    rows, columns = np.nonzero((depth > 0) & (depth <= max_depth_m))
-    pixels = np.column_stack([columns, rows]) * float(stride) + stride // 2
-    points = frame.intrinsics.backproject(pixels, depth[rows, columns])
-    colours = frame.colour[stride // 2 :: stride, stride // 2 :: stride][rows, columns]
-    return points.astype(np.float32), np.ascontiguousarray(colours)
+    @property
+    def colours(self) -> NDArray[np.uint8]:
+        """Of the cloud (M, 3)."""
+        return self.image.colours

@@ -1,9 +1,10 @@
-"""The coloured map: every keyframe's points, one a voxel."""
+"""The coloured map: what keyframes saw, fused in voxels at their present poses."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,13 @@ from pydantic import Field
 
 from datasets import poses
 from datasets.settings import Settings
+from slam.carving import look_again
+from slam.fusion import Fusion, Voxels
 from slam.keyframe import Keyframe
+from slam.noise import SensorNoise
+from slam.range_image import RangeImage
+
+FloatArray = NDArray[np.float64]
 
 
 class MapSettings(Settings):
@@ -19,7 +26,16 @@ class MapSettings(Settings):
 
     voxel_m: float = Field(0.02, gt=0, le=1, description="one point a cube of this size")
     stride: int = Field(4, ge=1, le=64, description="every n-th pixel of a keyframe is mapped")
-    max_depth_m: float = Field(4.0, gt=0, le=100, description="readings beyond are not mapped")
+    max_depth_m: float = Field(4.0, gt=0, le=65, description="readings beyond are not mapped")
+    carve: bool = Field(True, description="drop points that keyframes see through: moving things")
+    sketch_voxels: float = Field(
+        2.5, ge=1, le=50, description="size of a voxel of the map on the way, in those of the map"
+    )
+    sketch_step: int = Field(2, ge=1, le=16, description="every n-th mapped pixel is sketched")
+    sketch_slack: float = Field(
+        0.5, ge=0, le=10, description="a keyframe may move by so many sketch voxels before it is "
+        "fused again"
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,62 +50,98 @@ class PointMap:
         Red, green, blue.
     keyframes : (N,) int32
         The keyframe that saw each point best (from nearest): labels are looked up by it.
+    normals : (N, 3) float32
+        Of the surface, unit length, towards the cameras that saw it.
     """
 
     points_world: NDArray[np.float32]
     colours: NDArray[np.uint8]
     keyframes: NDArray[np.int32]
+    normals: NDArray[np.float32]
 
     def __len__(self) -> int:
         return len(self.points_world)
 
+    @property
+    def nbytes(self) -> int:
+        """Bytes held."""
+        arrays = (self.points_world, self.colours, self.keyframes, self.normals)
+        return sum(array.nbytes for array in arrays)
+
+    def chosen(self, rows: NDArray[Any]) -> PointMap:
+        """Return the map of some points only: their numbers, or (N,) bool."""
+        return PointMap(
+            self.points_world[rows], self.colours[rows], self.keyframes[rows], self.normals[rows]
+        )
+
 
 def build_map(
     keyframes: Iterable[Keyframe],
-    T_world_keyframe: Mapping[int, NDArray[np.float64]],
-    voxel_m: float,
-    every: int = 1,
+    T_world_keyframe: Mapping[int, FloatArray],
+    settings: MapSettings,
+    noise: SensorNoise,
 ) -> PointMap:
-    """Fuse keyframes' clouds at their present poses: the mean point and colour of each voxel.
+    """Fuse keyframes at their present poses, and drop what others of them see through.
 
-    Nothing is kept between calls, so after a loop closure the map is simply built again.
-    `every` thins the clouds beforehand.
+    Nothing is kept between calls, so after a loop closure the map is simply built again; memory
+    follows the space seen (see `slam.fusion`), not the number of keyframes.
     """
-    points, colours, owners, depths = [], [], [], []
-    for keyframe in keyframes:
-        cloud = keyframe.cloud[::every]
-        points.append(poses.transform(T_world_keyframe[keyframe.id], cloud))
-        colours.append(keyframe.colours[::every])
-        owners.append(np.full(len(cloud), keyframe.id, dtype=np.int32))
-        depths.append(cloud[:, 2])
-    if not points or not sum(map(len, points)):
-        empty = np.empty((0, 3))
-        return PointMap(empty.astype(np.float32), empty.astype(np.uint8), np.empty(0, np.int32))
-    return _one_a_voxel(
-        np.concatenate(points), np.concatenate(colours), np.concatenate(owners),
-        np.concatenate(depths), voxel_m,
-    )  # fmt: skip
+    images = [(keyframe.id, keyframe.image) for keyframe in keyframes]
+    fusion = Fusion(settings.voxel_m, noise)
+    for keyframe, image in images:
+        fusion.add(keyframe, image, T_world_keyframe[keyframe])
+    voxels = fusion.voxels()
+    points = _as_map(voxels)
+    if settings.carve and len(points):
+        seen = look_again(voxels, settings.voxel_m, images, T_world_keyframe, noise)
+        points = points.chosen(~seen.is_empty)
+    return points
 
 
-def _one_a_voxel(
-    points: NDArray[np.float64],
-    colours: NDArray[np.uint8],
-    owners: NDArray[np.int32],
-    depths: NDArray[np.float32],
-    voxel_m: float,
-) -> PointMap:
-    cells = np.floor((points - points.min(axis=0)) / voxel_m).astype(np.int64)
-    size = cells.max(axis=0) + 1
-    key = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]
-    # Within a voxel the nearest view comes first.
-    order = np.lexsort((depths, key))
-    key = key[order]
-    first = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
-    count = np.diff(np.r_[first, len(key)])[:, None]
-    mean_points = np.add.reduceat(points[order], first) / count
-    mean_colours = np.add.reduceat(colours[order].astype(np.float64), first) / count
-    return PointMap(
-        mean_points.astype(np.float32),
-        np.rint(mean_colours).astype(np.uint8),
-        owners[order][first],
-    )
+class LiveMap:
+    """A map that follows the keyframes: what is new is fused, what has moved is fused again.
+
+    It costs as much as has changed, not as much as there is. Things that have moved away stay in
+    it; `build_map` is for keeps.
+    """
+
+    def __init__(self, settings: MapSettings, noise: SensorNoise) -> None:
+        self.settings = settings
+        self._voxel_m = settings.sketch_voxels * settings.voxel_m
+        self._noise = noise
+        self._fusion = Fusion(self._voxel_m, noise)
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes held."""
+        images = sum(fused.image.nbytes for fused in self._fusion.fused.values())
+        return self._fusion.nbytes + images
+
+    def update(
+        self, keyframes: Mapping[int, Keyframe], T_world_keyframe: Mapping[int, FloatArray]
+    ) -> PointMap:
+        """Follow the keyframes to their present poses and return the map."""
+        for keyframe, fused in list(self._fusion.fused.items()):
+            known = keyframe in keyframes
+            if not known or self._has_moved(
+                fused.image, fused.T_world_keyframe, T_world_keyframe[keyframe]
+            ):
+                self._fusion.remove(keyframe)
+        if self._fusion.waste > 0.5:
+            self._fusion = Fusion(self._voxel_m, self._noise)
+        for keyframe in sorted(keyframes.keys() - self._fusion.fused.keys()):
+            image = keyframes[keyframe].image.every(self.settings.sketch_step)
+            self._fusion.add(keyframe, image, T_world_keyframe[keyframe])
+        return _as_map(self._fusion.voxels())
+
+    def _has_moved(self, image: RangeImage, before: FloatArray, now: FloatArray) -> bool:
+        """Whether what an image shows has moved by more than the slack."""
+        T = poses.inverse(before) @ now
+        readings = image.depth_mm[image.depth_mm > 0]
+        depth_m = float(np.median(readings)) / 1000 if len(readings) else 0.0
+        moved = np.linalg.norm(T[:3, 3]) + poses.rotation_angle(T) * depth_m
+        return bool(moved > self.settings.sketch_slack * self._voxel_m)
+
+
+def _as_map(voxels: Voxels) -> PointMap:
+    return PointMap(voxels.points, voxels.colours, voxels.keyframes, voxels.normals)

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from datasets import poses
 from datasets.settings import Settings
-from slam.keyframe import Keyframe, cloud_of
+from slam.keyframe import Keyframe
 from slam.linker import Linker
 from slam.local_map import LocalMap, local_map
 from slam.loops import LoopCloser
@@ -19,6 +19,7 @@ from slam.map import MapSettings
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings, extract_planes
 from slam.pose_graph import Link, PoseGraph
+from slam.range_image import range_image_of
 from slam.tracker import Located
 from slam.tracking import LoopClosure
 from slam.view import View
@@ -132,15 +133,15 @@ class Mapper:
 
     def _keep(self, view: View) -> Keyframe:
         frame = view.frame
-        cloud, colours = cloud_of(view, self.cloud.stride, self.cloud.max_depth_m)
+        image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
         planes = (
-            extract_planes(cloud.astype(np.float64), self.noise, self.planes, self.seed)
+            extract_planes(image.points.astype(np.float64), self.noise, self.planes, self.seed)
             if self.planes.enabled
             else ()
         )
         keyframe = Keyframe(
             len(self.keyframes), frame.index, frame.stamp_s, view.features, view.points_camera,
-            planes, cloud, colours, frame.intrinsics,
+            planes, image, frame.intrinsics,
         )  # fmt: skip
         return keyframe
 

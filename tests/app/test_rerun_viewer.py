@@ -68,7 +68,7 @@ def map_of(frames: int) -> MapView:
     keyframes = path[::3]
     links = np.stack([keyframes[:-1], keyframes[1:]], axis=1)
     return MapView(
-        PointMap(points, colours, np.zeros(2000, np.int32)),
+        PointMap(points, colours, np.zeros(2000, np.int32), np.zeros_like(points)),
         rng.integers(0, 3, 2000).astype(np.uint16), keyframes, links, links[:1], path,
     )  # fmt: skip
 
@@ -251,8 +251,8 @@ def test_maps_are_thinned_and_left_out_when_too_many(tmp_path: Path) -> None:
 def test_a_run_without_a_single_pose_can_be_closed(tmp_path: Path) -> None:
     viewer = RerunViewer(tmp_path / "empty.rrd")
     viewer.start(SessionView("empty", 1, CAMERA, LabelSpace(), None))
-    nothing = np.empty((0, 3))
-    points = PointMap(nothing.astype(np.float32), nothing.astype(np.uint8), np.empty(0, np.int32))
+    nothing, none = np.empty((0, 3)), np.empty((0, 3), np.float32)
+    points = PointMap(none, none.astype(np.uint8), np.empty(0, np.int32), none)
     ends = np.empty((0, 2, 3))
     empty = MapView(points, np.empty(0, np.uint16), nothing, ends, ends, nothing)
     viewer.show_frame(frame_of(LOST), tracking_of(LOST))

@@ -1,0 +1,178 @@
+"""Fusing keyframes into voxels, one by one, in any order, and taking them out again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from slam.noise import SensorNoise
+from slam.range_image import RangeImage
+from slam.voxels import VoxelTable, cells_of, grown, keys_of
+
+FloatArray = NDArray[np.float64]
+# Sums are kept in whole numbers, so that they come out the same in whatever order keyframes are
+# added and taken out: offsets within a voxel in 256ths of it, normals in 127ths, weights up to
+# 255. A view adds less than 2**16 to a sum of 32 bits: 32768 views of one voxel.
+FINEST_OFFSET, LONGEST_NORMAL, LARGEST_WEIGHT = 256, 127, 255
+# A reading without a normal looks to the camera, but counts little beside one that has it.
+GUESSED_NORMAL = 0.1
+WEIGHT, OFFSET, COLOUR, NORMAL = slice(0, 1), slice(1, 4), slice(4, 7), slice(7, 10)
+
+
+@dataclass(frozen=True, slots=True)
+class Fused:
+    """What a keyframe gave to the voxels.
+
+    Attributes
+    ----------
+    image : RangeImage
+        What was fused, to take it out again.
+    T_world_keyframe : (4, 4) float64
+        The pose it was fused at.
+    rows : (N,) int32
+        Of the voxels.
+    depth_mm : (N,) uint16
+        How far the keyframe's camera was from each.
+    """
+
+    image: RangeImage
+    T_world_keyframe: FloatArray
+    rows: NDArray[np.int32]
+    depth_mm: NDArray[np.uint16]
+
+
+@dataclass(frozen=True, slots=True)
+class Voxels:
+    """The voxels that something was seen in, sorted by their number.
+
+    Attributes
+    ----------
+    keys : (N,) int64
+        See `slam.voxels.keys_of`.
+    points : (N, 3) float32
+        The weighted mean of what was seen, metres, in the world.
+    colours : (N, 3) uint8
+    normals : (N, 3) float32
+        Unit vectors towards the cameras.
+    keyframes : (N,) int32
+        The keyframe that saw each from nearest; of several the first.
+    views : (N,) int32
+        How many keyframes saw each.
+    """
+
+    keys: NDArray[np.int64]
+    points: NDArray[np.float32]
+    colours: NDArray[np.uint8]
+    normals: NDArray[np.float32]
+    keyframes: NDArray[np.int32]
+    views: NDArray[np.int32]
+
+
+class Fusion:
+    """Voxels with the weighted means of the range images fused into them.
+
+    Every keyframe counts once in a voxel, with the inverse variance of its depth there: the
+    readings of one view err together. Nothing is left of a keyframe that is taken out.
+    """
+
+    def __init__(self, voxel_m: float, noise: SensorNoise) -> None:
+        self.voxel_m, self.noise = voxel_m, noise
+        self.fused: dict[int, Fused] = {}
+        self._table = VoxelTable()
+        self._sums: NDArray[np.int32] = np.empty((0, 10), np.int32)
+        self._views: NDArray[np.uint16] = np.empty(0, np.uint16)
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes held, the images left out."""
+        lists = sum(f.rows.nbytes + f.depth_mm.nbytes for f in self.fused.values())
+        return self._table.nbytes + self._sums.nbytes + self._views.nbytes + lists
+
+    @property
+    def waste(self) -> float:
+        """The share of rows whose voxels nothing is seen in any more."""
+        count = len(self._table)
+        return 1.0 - np.count_nonzero(self._views[:count]) / count if count else 0.0
+
+    def add(self, keyframe: int, image: RangeImage, T_world_keyframe: FloatArray) -> None:
+        """Fuse a keyframe."""
+        keys, sums, depth_mm = self._means(image, T_world_keyframe)
+        rows = self._table.rows(keys)
+        self._sums = grown(self._sums, len(self._table))
+        self._views = grown(self._views, len(self._table))
+        self._sums[rows] += sums
+        self._views[rows] += 1
+        self.fused[keyframe] = Fused(image, T_world_keyframe.copy(), rows, depth_mm)
+
+    def remove(self, keyframe: int) -> None:
+        """Take a keyframe out again."""
+        fused = self.fused.pop(keyframe)
+        _, sums, _ = self._means(fused.image, fused.T_world_keyframe)
+        self._sums[fused.rows] -= sums
+        self._views[fused.rows] -= 1
+
+    def voxels(self) -> Voxels:
+        """Return what the voxels hold; the same however they came to hold it."""
+        count = len(self._table)
+        rows = np.flatnonzero(self._views[:count])
+        keys = self._table.keys[rows]
+        order = np.argsort(keys)
+        rows, keys = rows[order], keys[order]
+        sums = self._sums[rows]
+        weight = sums[:, WEIGHT].astype(np.float64)
+        points = (cells_of(keys) + (sums[:, OFFSET] / weight + 0.5) / FINEST_OFFSET) * self.voxel_m
+        normals = sums[:, NORMAL].astype(np.float64)
+        length = np.linalg.norm(normals, axis=1, keepdims=True)
+        # Seen from both sides alike: any normal will do.
+        normals = np.where(length > 0, normals / np.maximum(length, 1e-12), (0.0, 0.0, 1.0))
+        return Voxels(
+            keys, points.astype(np.float32),
+            np.rint(sums[:, COLOUR] / weight).astype(np.uint8), normals.astype(np.float32),
+            self._nearest(count)[rows], self._views[rows].astype(np.int32),
+        )  # fmt: skip
+
+    def _nearest(self, count: int) -> NDArray[np.int32]:
+        """Return the keyframe that saw each row from nearest."""
+        best = np.full(count, np.iinfo(np.int64).max)
+        for keyframe, fused in self.fused.items():
+            bid = fused.depth_mm.astype(np.int64) << 32 | keyframe
+            best[fused.rows] = np.minimum(best[fused.rows], bid)
+        return (best & 0xFFFFFFFF).astype(np.int32)
+
+    def _means(
+        self, image: RangeImage, T_world_keyframe: FloatArray
+    ) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.uint16]]:
+        """Return the voxels (N,) that an image falls into, the sums (N, 10), the depths (N,)."""
+        points = image.points
+        R = T_world_keyframe[:3, :3].astype(np.float32)
+        # In voxels, float64: far from the origin float32 would not resolve a voxel.
+        scaled = poses.transform(T_world_keyframe, points) / self.voxel_m
+        cells = np.floor(scaled)
+        keys = keys_of(cells.astype(np.int32))
+        order = np.argsort(keys, kind="stable")
+        sorted_keys = keys[order]
+        first = np.r_[True, sorted_keys[1:] != sorted_keys[:-1]][: len(keys)]
+        group = np.empty(len(keys), np.intp)
+        group[order] = np.cumsum(first) - 1
+        count = np.bincount(group)
+        columns = [
+            *((scaled - cells).T * FINEST_OFFSET - 0.5), *image.colours.T,
+            *(_guessed(image.normals(self.noise), points) @ R.T * LONGEST_NORMAL).T,
+        ]  # fmt: skip
+        means = [np.bincount(group, column) / count for column in columns]
+        depth = np.bincount(group, points[:, 2]) / count
+        share = (self.noise.depth_floor_m / self.noise.depth_sigma(depth)) ** 2
+        weight = np.maximum(np.rint(LARGEST_WEIGHT * share), 1)
+        sums = np.rint(np.stack([np.ones_like(weight), *means], axis=-1)) * weight[:, None]
+        return sorted_keys[first], sums.astype(np.int32), np.rint(depth * 1000).astype(np.uint16)
+
+
+def _guessed(normals: NDArray[np.float32], points: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return normals (N, 3), those that are missing short ones towards the camera."""
+    missing = ~normals.any(axis=1)
+    ray = points[missing]
+    normals[missing] = -GUESSED_NORMAL * ray / np.linalg.norm(ray, axis=1, keepdims=True)
+    return normals

@@ -1,0 +1,161 @@
+"""A keyframe's depth, thinned and packed: what maps and meshes are made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets.camera import Intrinsics
+from datasets.frame import Frame
+from slam.noise import SensorNoise
+from slam.view import without_edges
+
+FloatArray = NDArray[np.float64]
+Float32Array = NDArray[np.float32]
+UNITS_PER_M = 1000
+# Normals are fitted to windows of this many cells a side, and to no fewer readings than this.
+WINDOW, MIN_READINGS = 5, 12
+
+
+@dataclass(frozen=True, slots=True)
+class RangeImage:
+    """A depth image of few cells with its colours, five bytes a cell.
+
+    Attributes
+    ----------
+    depth_mm : (H, W) uint16
+        Along the optical axis, millimetres; 0 where there is no reading.
+    colour : (H, W, 3) uint8
+        Red, green, blue.
+    intrinsics : Intrinsics
+        Of these cells: those of the camera, scaled.
+    """
+
+    depth_mm: NDArray[np.uint16]
+    colour: NDArray[np.uint8]
+    intrinsics: Intrinsics
+
+    @property
+    def depth(self) -> NDArray[np.float32]:
+        """Depth (H, W), metres; 0 where there is no reading."""
+        return self.depth_mm.astype(np.float32) / np.float32(UNITS_PER_M)
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes held."""
+        return self.depth_mm.nbytes + self.colour.nbytes
+
+    @property
+    def points(self) -> NDArray[np.float32]:
+        """The points seen (M, 3) in the camera's frame, metres, row by row."""
+        depth, (x, y) = self.depth, self._rays()
+        return np.stack([depth * x, depth * y, depth], axis=-1)[self.depth_mm > 0]
+
+    @property
+    def colours(self) -> NDArray[np.uint8]:
+        """Of the points (M, 3)."""
+        return np.ascontiguousarray(self.colour[self.depth_mm > 0])
+
+    def every(self, step: int) -> RangeImage:
+        """Return an image of every `step`-th row and column."""
+        if step == 1:
+            return self
+        first = step // 2
+        return RangeImage(
+            np.ascontiguousarray(self.depth_mm[first::step, first::step]),
+            np.ascontiguousarray(self.colour[first::step, first::step]),
+            _scaled(self.intrinsics, step, first),
+        )
+
+    def normals(self, noise: SensorNoise) -> NDArray[np.float32]:
+        """Return the points' normals (M, 3), unit length, towards the camera.
+
+        A plane's inverse depth is linear in the pixel, so each comes from a line fitted to the
+        inverse depths of a small window (as in Holzer et al., 2012, the sums by box filters).
+        (0, 0, 0) where the readings around are few or do not lie on one plane to within three
+        standard deviations.
+        """
+        depth, (x, y), K = self.depth, self._rays(), self.intrinsics
+        a, b, c, residual = _inverse_depth_planes(depth)
+        # 1 / z = a u + b v + c is n . K^-1 (u, v, 1) for the plane n . p = 1.
+        a *= np.float32(-K.fx)
+        b *= np.float32(-K.fy)
+        normals = np.stack([a, b, -a * x - b * y - c], axis=-1)[self.depth_mm > 0]
+        length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+        z = depth[self.depth_mm > 0]
+        sound = (residual[self.depth_mm > 0] * z**2 < 3 * noise.depth_sigma(z)) & (length > 0)
+        length[~sound] = np.inf
+        normals /= length[:, None]
+        return normals
+
+    def _rays(self) -> tuple[Float32Array, Float32Array]:
+        """Return x / z (W,) of the columns and y / z (H, 1) of the rows."""
+        K, (height, width) = self.intrinsics, self.depth_mm.shape
+        x, y = (np.arange(width) - K.cx) / K.fx, (np.arange(height) - K.cy) / K.fy
+        return x.astype(np.float32), y.astype(np.float32)[:, None]
+
+
+def range_image_of(frame: Frame, stride: int, max_depth_m: float) -> RangeImage:
+    """Thin a frame's depth to the middle of each `stride` by `stride` pixels.
+
+    Readings on depth edges and beyond `max_depth_m` are left out.
+    """
+    first = stride // 2
+    depth = without_edges(frame.depth)[first::stride, first::stride]
+    farthest = min(max_depth_m, np.iinfo(np.uint16).max / UNITS_PER_M)
+    depth = np.where(depth <= farthest, depth, np.float32(0))
+    return RangeImage(
+        np.rint(depth * UNITS_PER_M).astype(np.uint16),
+        np.ascontiguousarray(frame.colour[first::stride, first::stride]),
+        _scaled(frame.intrinsics, stride, first),
+    )
+
+
+def _scaled(camera: Intrinsics, step: int, first: int) -> Intrinsics:
+    """Return the camera whose pixels are every `step`-th of another's, from `first` on."""
+    return Intrinsics(
+        len(range(first, camera.width, step)), len(range(first, camera.height, step)),
+        camera.fx / step, camera.fy / step,
+        (camera.cx - first) / step, (camera.cy - first) / step,
+    )  # fmt: skip
+
+
+def _inverse_depth_planes(
+    depth: Float32Array,
+) -> tuple[Float32Array, Float32Array, Float32Array, Float32Array]:
+    """Fit ``1 / z = a du + b dv + c`` around each cell (H, W), by least squares.
+
+    Returns
+    -------
+    a, b, c, residual : (H, W) float32
+        1 / metres; the residual is a standard deviation, infinite where no plane can be fitted.
+    """
+    known = (depth > 0).astype(np.float32)
+    d = np.divide(1.0, depth, out=np.zeros_like(depth), where=depth > 0)
+    one: FloatArray = np.ones(WINDOW)
+    ramp: FloatArray = np.arange(WINDOW, dtype=np.float64) - WINDOW // 2
+
+    def summed(image: Float32Array, across: FloatArray, down: FloatArray) -> Any:
+        return cv2.sepFilter2D(image, cv2.CV_32F, across, down, borderType=cv2.BORDER_CONSTANT)
+
+    n = np.maximum(summed(known, one, one), np.float32(1))
+    mu, mv, md = (
+        total / n
+        for total in (summed(known, ramp, one), summed(known, one, ramp), summed(d, one, one))
+    )
+    uu = summed(known, ramp * ramp, one) - n * mu * mu
+    vv = summed(known, one, ramp * ramp) - n * mv * mv
+    uv = summed(known, ramp, ramp) - n * mu * mv
+    ud = summed(d, ramp, one) - n * mu * md
+    vd = summed(d, one, ramp) - n * mv * md
+    dd = summed(d * d, one, one) - n * md * md
+    determinant = uu * vv - uv * uv
+    fits = (n >= MIN_READINGS) & (determinant > 1e-6)
+    determinant[~fits] = 1.0
+    a, b = (ud * vv - vd * uv) / determinant, (vd * uu - ud * uv) / determinant
+    left = np.maximum(dd - a * ud - b * vd, 0.0) / np.maximum(n - 3, np.float32(1))
+    return a, b, md - a * mu - b * mv, np.where(fits, np.sqrt(left), np.float32(np.inf))

@@ -1,0 +1,77 @@
+import numpy as np
+import pytest
+
+from datasets.frame import Frame
+from slam.range_image import RangeImage, range_image_of
+
+from .helpers import CAMERA, NOISE
+
+
+def _plane_depth(normal, distance):
+    """Return the depth image of the plane normal . p = distance."""
+    columns, rows = np.meshgrid(np.arange(CAMERA.width), np.arange(CAMERA.height))
+    rays = CAMERA.backproject(
+        np.stack([columns, rows], axis=-1).reshape(-1, 2), np.ones(columns.size)
+    )
+    return (distance / (rays @ normal)).reshape(columns.shape).astype(np.float32)
+
+
+def _frame(depth, rng):
+    colour = rng.integers(0, 256, (*depth.shape, 3), dtype=np.uint8)
+    return Frame(0, 0.0, colour, depth, CAMERA)
+
+
+def test_points_are_the_middle_pixels_to_half_a_millimetre(rng):
+    depth = _plane_depth(np.array([0.2, 0.1, 1.0]), 2.0)
+    frame = _frame(depth, rng)
+    image = range_image_of(frame, 4, 5.0)
+    rows, columns = (grid.ravel() for grid in np.mgrid[2:480:4, 2:640:4])
+    expected = CAMERA.backproject(np.column_stack([columns, rows]), depth[rows, columns])
+    assert image.points.shape == expected.shape
+    assert np.abs(image.points - expected).max() < 0.0006
+    assert np.array_equal(image.colours, frame.colour[rows, columns])
+    assert image.nbytes == 5 * len(expected)
+
+
+def test_thinning_twice_is_thinning_once_more(rng):
+    frame = _frame(_plane_depth(np.array([0.0, 0.3, 1.0]), 2.0), rng)
+    image = range_image_of(frame, 4, 5.0)
+    thinner = image.every(2)
+    assert thinner.depth_mm.shape == (60, 80)
+    points = image.points.reshape(120, 160, 3)[1::2, 1::2].reshape(-1, 3)
+    assert np.allclose(thinner.points, points, atol=1e-5)
+
+
+def test_edges_holes_and_what_is_far_are_left_out(rng):
+    depth = np.full((480, 640), 2.0, np.float32)
+    depth[:, :100] = 0
+    depth[:, 300:] = 3.0
+    depth[:, 500:] = 5.0
+    image = range_image_of(_frame(depth, rng), 1, 4.0)
+    seen = np.flatnonzero(image.depth_mm[200])
+    assert seen.tolist() == [*range(100, 299), *range(301, 499)]
+
+
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0.5, 0, 1), (0, -0.8, 0.6), (0.3, 0.4, 0.7)])
+def test_normals_of_a_plane_point_to_the_camera(normal, rng):
+    normal = np.array(normal, float) / np.linalg.norm(normal)
+    depth = _plane_depth(normal, 1.5)
+    depth[(depth < 0.5) | (depth > 4)] = 0
+    found = range_image_of(_frame(depth, rng), 4, 5.0).normals(NOISE)
+    assert len(found) > 2000
+    known = found.any(axis=1)
+    assert known.mean() > 0.95
+    # Whole millimetres are all that is lost.
+    assert np.degrees(np.arccos(np.clip(found[known] @ -normal, -1, 1))).max() < 3.0
+
+
+def test_no_normal_is_made_up_across_an_edge_or_for_a_lone_reading(rng):
+    depth = np.zeros((24, 32), np.uint16)
+    depth[:, :8], depth[:, 8:16] = 1000, 2000
+    depth[12, 25] = 1500
+    image = RangeImage(depth, np.zeros((24, 32, 3), np.uint8), CAMERA)
+    normals = np.zeros((24, 32, 3))
+    normals[depth > 0] = image.normals(NOISE)
+    known = normals.any(axis=2)[12]
+    assert known[2:6].all() and known[10:14].all()
+    assert not known[6:10].any() and not known[25]
