@@ -63,6 +63,7 @@ def summarise(runs: Sequence[BenchRun], job: BenchJob) -> dict[str, Any]:
         "seconds_total": _middle(run.metrics["seconds_total"] for run in runs),
         "cpu_ms_per_frame": _middle(1e3 * run.cpu_s / run.metrics["frames"] for run in runs),
         "frame_ms": _spread([run.frame_ms for run in runs]),
+        "frame_cpu_ms": _spread([run.frame_cpu_ms for run in runs]),
         "interval_ms": _spread([run.interval_ms for run in runs]),
         "stage_ms": _stages(runs),
         "peak_rss_mb": _middle(run.peak_mb for run in runs),
@@ -101,6 +102,7 @@ def frame_times(runs: Sequence[BenchRun]) -> list[dict[str, list[float]]]:
     return [
         {
             "frame_ms": [round(value, 3) for value in run.frame_ms],
+            "frame_cpu_ms": [round(value, 3) for value in run.frame_cpu_ms],
             "interval_ms": [round(value, 3) for value in run.interval_ms],
             "memory_mb": [round(value, 1) for value in run.memory_mb],
         }

@@ -10,6 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from app.clock import StageClock
 from app.config import AppSettings
 from app.input import InputOptions
 
@@ -39,6 +40,8 @@ class BenchRun:
         The run's figures, as in ``metrics.json``.
     frame_ms : list of float
         For each frame, milliseconds from its image to its pose: features and tracking.
+    frame_cpu_ms : list of float
+        The same as processor time of the threads that did it.
     interval_ms : list of float
         Milliseconds from one finished frame to the next, everything included.
     memory_mb : list of float
@@ -54,6 +57,7 @@ class BenchRun:
     name: str
     metrics: dict[str, Any]
     frame_ms: list[float]
+    frame_cpu_ms: list[float]
     interval_ms: list[float]
     memory_mb: list[float]
     peak_mb: float
@@ -102,15 +106,21 @@ def bench_once(job: BenchJob) -> BenchRun:
         metrics = pipeline.run()
         cpu_s = time.process_time() - before
         trajectory = folder.trajectory.read_bytes()
-    stages = [pipeline.clock.samples_s(stage) for stage in FRAME_STAGES]
     return BenchRun(
         sequence.name, metrics,
-        frame_ms=[1e3 * sum(parts) for parts in zip(*stages, strict=True)],
+        frame_ms=_frame_ms(pipeline.clock),
+        frame_cpu_ms=_frame_ms(pipeline.clock, cpu=True),
         interval_ms=[1e3 * (b - a) for a, b in pairwise(watch.times_s)],
         memory_mb=watch.memory_mb,
         peak_mb=resident_mb("VmHWM"), cpu_s=cpu_s,
         trajectory_sha256=hashlib.sha256(trajectory).hexdigest(),
     )  # fmt: skip
+
+
+def _frame_ms(clock: StageClock, cpu: bool = False) -> list[float]:
+    """Return what each frame took; both stages take the frames in their order."""
+    stages = [clock.samples_s(stage, cpu) for stage in FRAME_STAGES]
+    return [1e3 * sum(parts) for parts in zip(*stages, strict=True)]
 
 
 def resident_mb(what: str) -> float:

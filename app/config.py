@@ -15,6 +15,7 @@ from app.rerun_settings import ViewerSettings
 from datasets.files import write_text
 from datasets.settings import Settings
 from semantics.settings import SemanticsSettings
+from slam.checks import CheckSettings
 from slam.slam import SlamSettings
 
 
@@ -37,6 +38,7 @@ class AppSettings(Settings):
     semantics: SemanticsSettings = SemanticsSettings()
     viewer: ViewerSettings = ViewerSettings()
     recording: RecordingSettings = RecordingSettings()
+    checks: CheckSettings = CheckSettings()
 
 
 def load_settings(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> AppSettings:

@@ -17,6 +17,7 @@ from rich.progress import (
     TextColumn,
     TimeRemainingColumn,
 )
+from rich.text import Text
 
 Advance = Callable[[int, int, str], None]
 
@@ -33,6 +34,10 @@ class Terminal:
     def say(self, text: RenderableType, dim: bool = False) -> None:
         """Print a line as it is, however long, or a table."""
         self.console.print(text, style="dim" if dim else None, markup=False, soft_wrap=True)
+
+    def warn(self, text: str) -> None:
+        """Print a line that a person should not overlook."""
+        self.console.print(Text(f"warning: {text}", style="yellow"), soft_wrap=True)
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Advance]:

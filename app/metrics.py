@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import resource
 from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ def run_metrics(
     graph: SemanticGraph,
     map_points: int,
     clock: StageClock,
+    warnings: Iterable[str] = (),
 ) -> dict[str, Any]:
     """Return what `metrics.json` holds."""
     states = Counter(label.tracking.state for label in labels)
@@ -55,6 +57,7 @@ def run_metrics(
         "graph_nodes": len(graph.nodes),
         "graph_edges": len(graph.edges),
         "places": list(graph.places),
+        "warnings": list(warnings),
     }
     if sequence.ground_truth is not None:
         metrics |= trajectory_metrics(trajectory, sequence.ground_truth)

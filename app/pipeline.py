@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing
 from dataclasses import replace
 from typing import Any
@@ -54,6 +54,8 @@ class Pipeline:
         Shows or records.
     progress : callable
         Called with frames done, frames in all and a word on the state.
+    warnings : iterable of str
+        What is known to be wrong with the data; goes into the metrics.
     """
 
     def __init__(
@@ -64,9 +66,11 @@ class Pipeline:
         recorder: Recorder,
         viewer: Viewer,
         progress: Progress,
+        warnings: Iterable[str] = (),
     ) -> None:
         self.sequence, self.settings, self.recorder = sequence, settings, recorder
         self.viewer, self.progress = viewer, progress
+        self.warnings = list(warnings)
         self.clock = StageClock()
         self.slam = Slam(settings.slam, settings.seed)
         self.labels = model.labels if model is not None else LabelSpace.of(())
@@ -182,8 +186,9 @@ class Pipeline:
             self.viewer.show_graph(last, graph)
             self.viewer.close()
         metrics = run_metrics(
-            self.sequence, self.slam, self._labelled, trajectory, graph, len(points), self.clock
-        )
+            self.sequence, self.slam, self._labelled, trajectory, graph, len(points), self.clock,
+            self.warnings,
+        )  # fmt: skip
         self.recorder.write_metrics(metrics)
         return metrics
 

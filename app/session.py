@@ -17,6 +17,7 @@ from app.run_folder import RunFolder, make_run_folder
 from app.viewer import NoViewer, Viewer
 from datasets.sequence import Sequence
 from semantics.model import PlaceModel
+from slam.checks import Finding, check_sequence
 
 logger = logging.getLogger(__name__)
 
@@ -56,17 +57,33 @@ def map_sequence(
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(note, dim=True)
+        findings = _check(sequence, settings, terminal)
         viewer = _viewer(folder, settings, showing)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
-            pipeline = Pipeline(sequence, settings, model, Recorder(folder), viewer, advance)
+            pipeline = Pipeline(
+                sequence, settings, model, Recorder(folder), viewer, advance,
+                warnings=map(str, findings),
+            )  # fmt: skip
             metrics = pipeline.run()
         logger.info("finished, see %s", folder.metrics.name)
     if not metrics["frames_tracked"]:
         raise AppError(
             "no frame could be tracked", where=sequence.root, expected="colour with its depth",
-            hint="look at the depth images, and check --depth-scale and --camera",
+            hint="; ".join(map(str, findings))
+            or "look at the depth images, and check --depth-scale and --camera",
         )  # fmt: skip
     return folder, metrics
+
+
+def _check(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> tuple[Finding, ...]:
+    """Look at the data before a run, and say what cannot be right."""
+    if not settings.checks.enabled:
+        return ()
+    findings = check_sequence(sequence, settings.checks)
+    for finding in findings:
+        logger.warning("%s: %s", finding.kind, finding)
+        terminal.warn(str(finding))
+    return findings
 
 
 def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:

@@ -12,7 +12,7 @@ from app import options
 
 def bench(
     sequences: Annotated[
-        list[Path], typer.Argument(metavar="SEQUENCE...", help="Folders of RGB-D sequences.")
+        list[Path], typer.Argument(metavar="SEQUENCE", help="Folders of RGB-D sequences.")
     ],
     repeat: Annotated[
         int, typer.Option("--repeat", metavar="N", min=1, help="Times each is run; medians count.")

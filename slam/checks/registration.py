@@ -51,6 +51,10 @@ class Alignment:
         middle = np.array([shape[1] - 1, shape[0] - 1]) / 2
         return np.asarray(self.scale * (pixels - middle) + middle + (self.dx, self.dy))
 
+    def resized(self, factor: float) -> Alignment:
+        """Return the same for images so many times as large."""
+        return Alignment(self.scale, self.dx * factor, self.dy * factor)
+
     def displacement(self, shape: tuple[int, ...]) -> float:
         """Return the root mean square of how far it moves the pixels of an image (h, w)."""
         spread = (shape[0] ** 2 + shape[1] ** 2) / 12
@@ -66,21 +70,18 @@ class Misplaced:
 
 
 def score(found: Outlines, alignment: Alignment | None = None) -> float:
-    """Return how strong the colour edges are under the depth's outline; 0 is no relation at all."""
-    if not len(found.pixels):
+    """Return how strong the colour edges are under the depth's outline; 0 is no relation at all.
+
+    Outlines that `alignment` (working pixels) moves out of the image count as 0.
+    """
+    pixels, (height, width) = found.pixels, found.edges.shape
+    if not len(pixels):
         return 0.0
-    pixels = found.pixels
     if alignment is not None:
-        pixels = alignment.apply(pixels, found.edges.shape).astype(np.float32)
-    return under(pixels, found.edges)
-
-
-def under(pixels: NDArray[np.float32], edges: NDArray[np.float32]) -> float:
-    """Return the mean of `edges` (h, w) at pixels (N, 2); outside of the image it is 0."""
+        pixels = alignment.apply(pixels, (height, width)).astype(np.float32)
     x, y = np.rint(pixels.T).astype(np.intp)
-    height, width = edges.shape
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
-    return float(edges[y[inside], x[inside]].sum() / len(pixels))
+    return float(found.edges[y[inside], x[inside]].sum() / len(pixels))
 
 
 def find_misplacement(
@@ -109,12 +110,10 @@ def find_misplacement(
     unmoved = [score(f) for half in halves for f in half]
     if np.mean(moved) < settings.min_score or paired_t(moved, unmoved) < settings.min_t:
         return None
-    step = voting[0].step
-    alignment = Alignment(
-        (first.scale + second.scale) / 2,
-        (first.dx + second.dx) / 2 * step, (first.dy + second.dy) / 2 * step,
-    )  # fmt: skip
-    return Misplaced(alignment, float(np.mean(moved)))
+    middle = Alignment(
+        (first.scale + second.scale) / 2, (first.dx + second.dx) / 2, (first.dy + second.dy) / 2
+    )
+    return Misplaced(middle.resized(voting[0].step), float(np.mean(moved)))
 
 
 def _search(frames: Sequence[Outlines], settings: RegistrationSettings) -> Alignment:

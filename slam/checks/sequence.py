@@ -30,8 +30,8 @@ class CheckSettings(Settings):
     """What is looked at before a run to see that the data can be right."""
 
     enabled: bool = Field(True, description="look at the data before a run and warn")
-    windows: int = Field(6, ge=1, le=100, description="stretches of successive frames looked at")
-    window: int = Field(10, ge=1, le=100, description="frames in each")
+    windows: int = Field(10, ge=1, le=100, description="stretches of successive frames looked at")
+    window: int = Field(8, ge=1, le=100, description="frames in each")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()
     registration: RegistrationSettings = RegistrationSettings()
@@ -60,7 +60,8 @@ def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding
     Frames that cannot be read are left to those that need them.
     """
     camera = sequence.camera
-    found = [find_wrong_intrinsics(camera.intrinsics, settings.intrinsics)]
+    wrong = find_wrong_intrinsics(camera.intrinsics, settings.intrinsics)
+    found = [] if wrong is None else [wrong]
     evidence = _gather(sequence, settings)
     scale = find_wrong_scale(evidence.depths_m, camera.depth_scale, settings.depth_scale)
     if scale is not None:
@@ -71,11 +72,10 @@ def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding
         )
         found.append(Finding(
             "depth scale",
-            f"half of the depth readings lie beyond {scale.median_m:.3g} m "
-            f"at {camera.depth_scale:g} units a metre", hint,
+            f"the typical depth is {scale.median_m:.3g} m at {camera.depth_scale:g} units a metre",
+            hint,
         ))  # fmt: skip
-    found.append(_out_of_step(sequence, evidence, settings))
-    return tuple(finding for finding in found if finding is not None)
+    return (*found, *_out_of_step(sequence, evidence, settings))
 
 
 def _gather(sequence: Sequence, settings: CheckSettings) -> Evidence:
@@ -102,7 +102,7 @@ def _sampled(frame: Frame) -> NDArray[np.float32]:
     return np.asarray(depth[depth > 0])
 
 
-def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings) -> Finding | None:
+def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings) -> list[Finding]:
     """Say where depth and colour do not belong together: in place, or in time.
 
     Each can look like the other while the camera moves evenly: the better fit is believed.
@@ -110,9 +110,14 @@ def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings
     delay = find_delay(evidence.windows, settings.delay)
     spread = [frame for window in evidence.windows for frame in window[::REGISTRATION_STEP]]
     misplaced = find_misplacement(spread, settings.registration)
-    if delay is not None and (misplaced is None or delay.score >= misplaced.score):
-        return _late(delay, sequence)
-    return _unregistered(misplaced) if misplaced is not None else None
+    if misplaced is None:
+        return [] if delay is None else [_late(delay, sequence)]
+    if delay is not None and delay.score >= misplaced.score:
+        return [_late(delay, sequence)]
+    step = spread[0].step
+    later = find_delay(evidence.windows, settings.delay, misplaced.alignment.resized(1 / step))
+    found = [_unregistered(misplaced)]
+    return found if later is None else [*found, _late(later, sequence)]
 
 
 def _late(delay: Delay, sequence: Sequence) -> Finding:
