@@ -65,11 +65,9 @@ class RangeImage:
         if step == 1:
             return self
         first = step // 2
-        return RangeImage(
-            np.ascontiguousarray(self.depth_mm[first::step, first::step]),
-            np.ascontiguousarray(self.colour[first::step, first::step]),
-            _scaled(self.intrinsics, step, first),
-        )
+        depth_mm = np.ascontiguousarray(self.depth_mm[first::step, first::step])
+        colour = np.ascontiguousarray(self.colour[first::step, first::step])
+        return RangeImage(depth_mm, colour, _scaled(self.intrinsics, step, first, depth_mm.shape))
 
     def normals(self, noise: SensorNoise) -> NDArray[np.float32]:
         """Return the points' normals (M, 3), unit length, towards the camera.
@@ -100,26 +98,33 @@ class RangeImage:
 
 
 def range_image_of(frame: Frame, stride: int, max_depth_m: float) -> RangeImage:
-    """Thin a frame's depth to the middle of each `stride` by `stride` pixels.
+    """Thin a frame's depth to the mean of each `stride` by `stride` pixels.
 
-    Readings on depth edges and beyond `max_depth_m` are left out.
+    The mean is that of the inverse depths, which on a plane is the one in the middle. Readings on
+    depth edges are left out, and so are cells with readings in less than half of their pixels or
+    a mean beyond `max_depth_m`.
     """
-    first = stride // 2
-    depth = without_edges(frame.depth)[first::stride, first::stride]
-    farthest = min(max_depth_m, np.iinfo(np.uint16).max / UNITS_PER_M)
-    depth = np.where(depth <= farthest, depth, np.float32(0))
-    return RangeImage(
-        np.rint(depth * UNITS_PER_M).astype(np.uint16),
-        np.ascontiguousarray(frame.colour[first::stride, first::stride]),
-        _scaled(frame.intrinsics, stride, first),
+    height, width = (size // stride for size in frame.depth.shape)
+    depth = without_edges(frame.depth[: height * stride, : width * stride])
+    known = (depth > 0).astype(np.float32)
+    inverse = np.divide(1, depth, out=np.zeros_like(depth), where=depth > 0)
+    share, inverse, colour = (
+        cv2.resize(image, (width, height), interpolation=cv2.INTER_AREA)
+        for image in (known, inverse, frame.colour[: height * stride, : width * stride])
     )
+    farthest = min(max_depth_m, np.iinfo(np.uint16).max / UNITS_PER_M)
+    seen = (share >= 0.5) & (inverse * farthest >= share)
+    mean = np.divide(share, inverse, out=np.zeros_like(share), where=seen)
+    return RangeImage(
+        np.rint(mean * UNITS_PER_M).astype(np.uint16), colour,
+        _scaled(frame.intrinsics, stride, (stride - 1) / 2, mean.shape),
+    )  # fmt: skip
 
 
-def _scaled(camera: Intrinsics, step: int, first: int) -> Intrinsics:
-    """Return the camera whose pixels are every `step`-th of another's, from `first` on."""
+def _scaled(camera: Intrinsics, step: int, first: float, shape: tuple[int, ...]) -> Intrinsics:
+    """Return the camera of (H, W) pixels that lie at every `step`-th of another's, from `first`."""
     return Intrinsics(
-        len(range(first, camera.width, step)), len(range(first, camera.height, step)),
-        camera.fx / step, camera.fy / step,
+        shape[1], shape[0], camera.fx / step, camera.fy / step,
         (camera.cx - first) / step, (camera.cy - first) / step,
     )  # fmt: skip
 

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from datasets.camera import Intrinsics
 from datasets.frame import Frame
 from slam.range_image import RangeImage, range_image_of
 
@@ -21,16 +22,24 @@ def _frame(depth, rng):
     return Frame(0, 0.0, colour, depth, CAMERA)
 
 
-def test_points_are_the_middle_pixels_to_half_a_millimetre(rng):
-    depth = _plane_depth(np.array([0.2, 0.1, 1.0]), 2.0)
-    frame = _frame(depth, rng)
+def test_cells_are_the_middles_of_a_planes_pixels_to_half_a_millimetre(rng):
+    normal = np.array([0.2, 0.1, 1.0])
+    frame = _frame(_plane_depth(normal, 2.0), rng)
     image = range_image_of(frame, 4, 5.0)
-    rows, columns = (grid.ravel() for grid in np.mgrid[2:480:4, 2:640:4])
-    expected = CAMERA.backproject(np.column_stack([columns, rows]), depth[rows, columns])
-    assert image.points.shape == expected.shape
-    assert np.abs(image.points - expected).max() < 0.0006
-    assert np.array_equal(image.colours, frame.colour[rows, columns])
-    assert image.nbytes == 5 * len(expected)
+    assert image.points.shape == (120 * 160, 3)
+    assert np.abs(image.points @ normal - 2.0).max() < 0.0006
+    rows, columns = (grid.ravel() for grid in np.mgrid[1.5:480:4, 1.5:640:4])
+    pixels = CAMERA.project(image.points)
+    assert np.allclose(pixels, np.column_stack([columns, rows]), atol=1e-3)
+    means = frame.colour.reshape(120, 4, 160, 4, 3).mean(axis=(1, 3)).reshape(-1, 3)
+    assert np.abs(image.colours - means).max() <= 0.51
+    assert image.nbytes == 5 * 120 * 160
+
+
+def test_the_mean_of_a_cell_is_less_noisy_than_a_reading(rng):
+    depth = np.full((480, 640), 2.0) + 0.02 * rng.normal(size=(480, 640))
+    cells = range_image_of(_frame(depth.astype(np.float32), rng), 4, 5.0)
+    assert 0.0045 < np.std(cells.depth[cells.depth > 0]) < 0.0065
 
 
 def test_thinning_twice_is_thinning_once_more(rng):
@@ -50,6 +59,24 @@ def test_edges_holes_and_what_is_far_are_left_out(rng):
     image = range_image_of(_frame(depth, rng), 1, 4.0)
     seen = np.flatnonzero(image.depth_mm[200])
     assert seen.tolist() == [*range(100, 299), *range(301, 499)]
+
+
+def test_a_cell_needs_readings_in_half_of_its_pixels(rng):
+    depth = np.full((480, 640), 2.0, np.float32)
+    depth[:, ::2] = 0
+    depth[0, 4:8] = depth[2, 4:8] = depth[240:] = 0
+    image = range_image_of(_frame(depth, rng), 4, 5.0)
+    assert image.depth_mm[0, 0] == 2000 and image.depth_mm[0, 1] == 0
+    assert not image.depth_mm[60:].any()
+
+
+def test_a_camera_that_no_stride_divides_keeps_its_scale(rng):
+    camera = Intrinsics(101, 75, 80.0, 80.0, 50.0, 37.0)
+    colour = np.zeros((75, 101, 3), np.uint8)
+    frame = Frame(0, 0.0, colour, np.full((75, 101), 2.0, np.float32), camera)
+    image = range_image_of(frame, 4, 5.0)
+    assert image.depth_mm.shape == (18, 25) == (image.intrinsics.height, image.intrinsics.width)
+    assert np.allclose(camera.project(image.points)[0], 1.5)
 
 
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0.5, 0, 1), (0, -0.8, 0.6), (0.3, 0.4, 0.7)])
