@@ -73,7 +73,9 @@ class Recorder:
         """Write what the labels mean, and the labelled cloud if there is one."""
         write_labels(self.folder.labels, labels)
         if len(points):
-            write_cloud(self.folder.map, points.points_world, points.colours, label_ids)
+            write_cloud(
+                self.folder.map, points.points_world, points.colours, label_ids, points.normals
+            )
 
     def write_occupancy(self, grid: OccupancyGrid) -> None:
         """Write where there is free way and where there is none."""

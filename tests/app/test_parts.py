@@ -9,7 +9,7 @@ import pytest
 
 from app.buildings import building_settings
 from app.clock import StageClock
-from app.cloud_io import read_cloud, write_cloud
+from app.cloud_io import read_cloud, read_normals, write_cloud
 from app.config import load_settings, to_toml, write_settings
 from app.console import Terminal
 from app.errors import AppError
@@ -79,8 +79,15 @@ def test_cloud_round_trip(tmp_path, rng):
         (points, colours, labels), read_cloud(tmp_path / "map.ply"), strict=True
     ):
         assert np.array_equal(ours, theirs)
+    assert read_normals(tmp_path / "map.ply") is None
+    normals = rng.normal(size=(50, 3)).astype(np.float32)
+    write_cloud(tmp_path / "map.ply", points, colours, labels, normals)
+    assert np.array_equal(read_normals(tmp_path / "map.ply"), normals)
+    assert np.array_equal(read_cloud(tmp_path / "map.ply")[2], labels)
     with pytest.raises(AppError, match="no such file"):
         read_cloud(tmp_path / "none.ply")
+    with pytest.raises(AppError, match="no such file"):
+        read_normals(tmp_path / "none.ply")
     with pytest.raises(AppError, match="0 points"):
         write_cloud(tmp_path / "empty.ply", points[:0], colours[:0], labels[:0])
 
