@@ -95,11 +95,12 @@ class Mapper:
         measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
         for loop in measured:
             self._add(loop.link)
-        self.graph.optimise()
         closures = tuple(
-            LoopClosure(keyframe.id, loop.link.first, loop.inliers) for loop in measured
+            LoopClosure(loop.link.second, loop.link.first, loop.inliers) for loop in measured
         )
         self.closures.extend(closures)
+        for link in self.graph.optimise():
+            self._forget(link)
         return keyframe.id, closures
 
     def around(self, reference: int) -> LocalMap:
@@ -164,6 +165,13 @@ class Mapper:
         self.graph.add_link(link)
         self._neighbours[link.first].add(link.second)
         self._neighbours[link.second].add(link.first)
+
+    def _forget(self, rejected: Link) -> None:
+        """Drop a loop that turned out wrong."""
+        ends = rejected.second, rejected.first
+        self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
+        self._neighbours[rejected.first].discard(rejected.second)
+        self._neighbours[rejected.second].discard(rejected.first)
 
 
 def _pose_of(located: Located | Coarse) -> tuple[int, FloatArray]:

@@ -11,12 +11,16 @@ from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.files import replacing
+from slam.connections import Connections
 from slam.errors import SlamError
-from slam.solver import Link, PoseGraphSettings, Solver, factor_of
+from slam.solver import Link, PoseGraphSettings, Solver, deviations, factor_of
 
 __all__ = ["Link", "PoseGraph", "PoseGraphSettings"]
 
 FloatArray = NDArray[np.float64]
+
+# Between, only poses near new links are read back: the others move less than iSAM2's threshold.
+REFRESH_EVERY = 16
 
 
 class PoseGraph:
@@ -26,29 +30,35 @@ class PoseGraph:
     (sub-maps): the first keyframe of each is held at the pose it is added with. The first link
     between two components joins them: the younger moves as a whole, and hangs on its links alone
     from then on. So the world's frame stays that of the oldest keyframe.
+
+    Attributes
+    ----------
+    links : list of Link
+        All links that hold.
+    rejected : list of Link
+        Loops that were taken out again because the others contradicted them.
     """
 
     def __init__(self, settings: PoseGraphSettings) -> None:
         self.settings = settings
         self.links: list[Link] = []
+        self.rejected: list[Link] = []
         self._ids: list[int] = []
         self._T: FloatArray = np.empty((0, 4, 4))
-        self._way: list[float] = []
-        # The keyframe that began the sub-map: as tracked, and as joined by links.
-        self._tracked: list[int] = []
-        self._component: dict[int, int] = {}
-        self._members: dict[int, list[int]] = {}
-        self._held: set[int] = set()
-        self._loose: set[int] = set()
-        self._numbers: list[int] = []
+        # The way so far, and the keyframe with which tracking began.
+        self._way: list[tuple[int, float]] = []
+        self._connections = Connections()
         self._solver = Solver(settings)
-        self._is_stale = self._has_loop = False
+        self._numbers: list[int] = []
+        self._touched: set[int] = set()
+        self._is_stale = self._is_bent = False
+        self._updates = 0
 
     def __len__(self) -> int:
         return len(self._ids)
 
     def __contains__(self, keyframe: int) -> bool:
-        return keyframe in self._component
+        return keyframe in self._connections
 
     def __getitem__(self, keyframe: int) -> FloatArray:
         """Return T_world_keyframe (4, 4)."""
@@ -66,22 +76,24 @@ class PoseGraph:
     @property
     def components(self) -> int:
         """How many sub-maps there are that no link joins."""
-        return len(self._held)
+        return len(self._connections.roots)
 
     def component_of(self, keyframe: int) -> int:
         """Return the id of the oldest keyframe of the sub-map that a keyframe belongs to."""
         self._row(keyframe)
-        return self._component[keyframe]
+        return self._connections.component_of(keyframe)
 
     def way_between(self, first: int, second: int) -> float:
         """Return the length of the way from one keyframe to the other, as tracked, metres.
 
         Infinite if tracking was lost in between.
         """
-        i, j = self._row(first), self._row(second)
-        if self._tracked[i] != self._tracked[j]:
-            return float("inf")
-        return abs(self._way[j] - self._way[i])
+        (begun, way), (begun_too, way_too) = (self._way[self._row(k)] for k in (first, second))
+        return abs(way_too - way) if begun == begun_too else float("inf")
+
+    def linked_way(self, first: int, second: int, limit: float) -> float:
+        """Return the length of the shortest way along links, infinite if beyond `limit` metres."""
+        return self._connections.way_between(first, second, limit)
 
     def add_keyframe(
         self, keyframe: int, T_world_keyframe: FloatArray, starts_component: bool = False
@@ -104,19 +116,19 @@ class PoseGraph:
             what = "is in the graph already" if keyframe in self else "has too small an id"
             raise SlamError(f"keyframe {what}", where=f"keyframe {keyframe}")
         starts = starts_component or not self._ids
-        step = 0.0 if starts else np.linalg.norm(T_world_keyframe[:3, 3] - self._T[-1, :3, 3])
-        self._way.append(float(step) + (self._way[-1] if self._way else 0.0))
-        self._tracked.append(keyframe if starts else self._tracked[-1])
+        if starts:
+            self._way.append((keyframe, 0.0))
+        else:
+            begun, way = self._way[-1]
+            step = float(np.linalg.norm(T_world_keyframe[:3, 3] - self._T[-1, :3, 3]))
+            self._way.append((begun, way + step))
         self._ids.append(keyframe)
         self._T = np.concatenate([self._T, T_world_keyframe[None]])
-        self._component[keyframe] = keyframe
-        self._members[keyframe] = [keyframe]
+        self._connections.add(keyframe, is_root=starts)
+        self._touched.add(keyframe)
         self._solver.add_pose(keyframe, T_world_keyframe)
         if starts:
-            self._held.add(keyframe)
             self._solver.add_prior(keyframe, T_world_keyframe)
-        else:
-            self._loose.add(keyframe)
 
     def add_link(self, link: Link) -> None:
         """Add a measurement between two keyframes; between two sub-maps it joins them.
@@ -126,30 +138,48 @@ class PoseGraph:
         SlamError
             One of the keyframes is not in the graph.
         """
-        first, second = self.component_of(link.first), self.component_of(link.second)
-        if first != second:
-            self._join(link, first, second)
+        rows = [self._row(keyframe) for keyframe in (link.first, link.second)]
+        moving = self._connections.link(link.first, link.second, _length(link))
+        if moving:
+            self._move(moving, link)
+        elif link.is_loop:
+            first, second = self._T[rows][:, None]
+            far = deviations([link], first, second, self.settings)[0]
+            self._is_bent |= bool(far > self.settings.kernel_width)
         self.links.append(link)
         self._numbers.append(self._solver.add_link(link))
-        self._has_loop |= link.is_loop
+        for keyframe in (link.first, link.second):
+            self._touched.update((keyframe, *self._connections.linked(keyframe)))
 
-    def optimise(self) -> None:
+    def optimise(self) -> list[Link]:
         """Take the new keyframes and links in and update all poses.
+
+        Returns
+        -------
+        list of Link
+            Loops taken out because the others contradict them.
 
         Raises
         ------
         SlamError
             A keyframe hangs on no link, so its pose is undetermined.
         """
-        if self._loose:
+        if self._connections.loose:
             raise SlamError(
-                "pose graph cannot be solved", where=f"keyframe {min(self._loose)}",
+                "pose graph cannot be solved", where=f"keyframe {min(self._connections.loose)}",
                 expected="a link to every keyframe",
             )  # fmt: skip
-        if self._is_stale:
-            self._rebuild()
-        self._T = self._solver.update(thoroughly=self._is_stale or self._has_loop)
-        self._is_stale = self._has_loop = False
+        if not (self._is_stale or self._is_bent):
+            self._update()
+            return []
+        self._settle()
+        rejected: list[Link] = []
+        while worst := self._contradicted():
+            rejected += worst
+            self._take_out(worst)
+            self._settle()
+        self.rejected += rejected
+        return rejected
 
     def write_g2o(self, path: Path) -> None:
         """Write poses and links, without kernels, for other tools (``VERTEX_SE3:QUAT``)."""
@@ -162,34 +192,65 @@ class PoseGraph:
             gtsam.writeG2o(factors, values, str(temporary))
 
     def _row(self, keyframe: int) -> int:
-        if keyframe not in self._component:
+        if keyframe not in self:
             raise SlamError("no such keyframe in the pose graph", where=f"keyframe {keyframe}")
         return bisect_left(self._ids, keyframe)
 
-    def _join(self, link: Link, first: int, second: int) -> None:
-        """Make two components one; of two that are held, the younger moves to where it fits."""
-        kept, other = sorted((first, second), key=lambda c: (c not in self._held, c))
-        members = self._members.pop(other)
-        if other in self._held:
-            T_first_second = link.T_first_second
-            if second == other:
-                moved = self[link.first] @ T_first_second @ poses.inverse(self[link.second])
-            else:
-                moved = self[link.second] @ poses.inverse(self[link.first] @ T_first_second)
-            rows = [self._row(keyframe) for keyframe in members]
-            self._T[rows] = moved @ self._T[rows]
-            self._held.remove(other)
-            self._is_stale = True
-        self._component.update(dict.fromkeys(members, kept))
-        self._members[kept].extend(members)
-        if kept in self._held:
-            self._loose.difference_update(members)
+    def _move(self, moving: list[int], link: Link) -> None:
+        """Move keyframes as a whole to where a link from elsewhere puts them."""
+        T_world_second = self[link.first] @ link.T_first_second
+        moved = T_world_second @ poses.inverse(self[link.second])
+        moved = poses.inverse(moved) if link.first in moving else moved
+        rows = [self._row(keyframe) for keyframe in moving]
+        self._T[rows] = moved @ self._T[rows]
+        self._is_stale = True
 
-    def _rebuild(self) -> None:
-        """Begin a new solver at the present poses: iSAM2 cannot move its own as a whole."""
-        self._solver = Solver(self.settings)
-        for keyframe, T in zip(self._ids, self._T, strict=True):
-            self._solver.add_pose(keyframe, T)
-            if keyframe in self._held:
-                self._solver.add_prior(keyframe, T)
-        self._numbers = [self._solver.add_link(link) for link in self.links]
+    def _update(self) -> None:
+        """Take in what changes little."""
+        self._solver.update(thoroughly=False)
+        self._updates += 1
+        if self._updates % REFRESH_EVERY == 0:
+            self._T = self._solver.poses()
+        else:
+            for keyframe in self._touched:
+                self._T[self._row(keyframe)] = self._solver.pose(keyframe)
+        self._touched.clear()
+
+    def _settle(self) -> None:
+        """Take in what moves the map, with a new solver where parts move as a whole."""
+        if self._is_stale:
+            self._solver = Solver(self.settings)
+            for keyframe, T in zip(self._ids, self._T, strict=True):
+                self._solver.add_pose(keyframe, T)
+                if keyframe in self._connections.roots:
+                    self._solver.add_prior(keyframe, T)
+            self._numbers = [self._solver.add_link(link) for link in self.links]
+        self._solver.update(thoroughly=True)
+        self._T = self._solver.poses()
+        self._is_stale = self._is_bent = False
+        self._touched.clear()
+
+    def _contradicted(self) -> list[Link]:
+        """Return the loops that stay far from the optimum; only the worst, which bend others."""
+        loops = [link for link in self.links if link.is_loop]
+        if not loops:
+            return []
+        first, second = (
+            self._T[[self._row(end) for end in ends]]
+            for ends in zip(*((link.first, link.second) for link in loops), strict=True)
+        )
+        far = deviations(loops, first, second, self.settings)
+        limit = max(self.settings.reject_width, far.max() / 2)
+        return [loops[i] for i in np.flatnonzero(far > limit)]
+
+    def _take_out(self, links: list[Link]) -> None:
+        gone = {id(link) for link in links}
+        places = [i for i, link in enumerate(self.links) if id(link) in gone]
+        for i in reversed(places):
+            link = self.links.pop(i)
+            self._solver.remove(self._numbers.pop(i))
+            self._is_stale |= self._connections.unlink(link.first, link.second, _length(link))
+
+
+def _length(link: Link) -> float:
+    return float(np.linalg.norm(link.T_first_second[:3, 3]))

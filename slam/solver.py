@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -9,7 +10,9 @@ import gtsam
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
+from scipy.spatial.transform import Rotation
 
+from datasets import poses
 from datasets.settings import Settings
 from slam.errors import SlamError
 
@@ -86,6 +89,23 @@ def factor_of(link: Link, settings: PoseGraphSettings, robust: bool) -> Any:
     )
 
 
+def deviations(
+    links: Sequence[Link],
+    T_world_first: FloatArray,
+    T_world_second: FloatArray,
+    settings: PoseGraphSettings,
+) -> FloatArray:
+    """Return how far poses (N, 4, 4) are from N links, in standard deviations (Mahalanobis)."""
+    measured = np.array([link.T_first_second for link in links])
+    error = poses.inverse(measured) @ poses.inverse(T_world_first) @ T_world_second
+    steps = np.concatenate(
+        [Rotation.from_matrix(error[:, :3, :3]).as_rotvec(), error[:, :3, 3]], axis=1
+    )
+    covariances = np.array([covariance_of(link, settings) for link in links])
+    weighted = np.linalg.solve(covariances, steps[:, :, None])[:, :, 0]
+    return np.asarray(np.sqrt(np.einsum("nd,nd->n", steps, weighted)))
+
+
 class Solver:
     """Keeps the poses that fit all factors best, incrementally (iSAM2; Kaess et al., 2012).
 
@@ -97,7 +117,6 @@ class Solver:
         parameters = gtsam.ISAM2Params()
         # Robust weights are those at the linearisation: it must follow the poses closely.
         parameters.setRelinearizeThreshold(0.01)
-        parameters.relinearizeSkip = 1
         self._isam = gtsam.ISAM2(parameters)
         self._factors = gtsam.NonlinearFactorGraph()
         self._values = gtsam.Values()
@@ -123,8 +142,8 @@ class Solver:
         """Take a factor of an earlier update out."""
         self._removed.append(self._index.pop(number))
 
-    def update(self, thoroughly: bool) -> FloatArray:
-        """Take in what waits; return all poses (N, 4, 4) in the order of their keys.
+    def update(self, thoroughly: bool) -> None:
+        """Take in what waits.
 
         One step is enough where the new poses follow from the old; `thoroughly` iterates until
         the poses rest.
@@ -135,34 +154,40 @@ class Solver:
             A pose is undetermined.
         """
         try:
-            result = self._isam.update(
-                self._factors, self._values, self._removed, force_relinearize=thoroughly
-            )
-            self._index.update(zip(self._waiting, result.getNewFactorsIndices(), strict=True))
-            poses = self._estimate()
-            for _ in range(self.settings.iterations if thoroughly else 0):
-                self._isam.update(force_relinearize=True)
-                before, poses = poses, self._estimate()
-                if np.abs(poses - before).max() < self.settings.converged_m:
-                    break
+            result = self._isam.update(self._factors, self._values, self._removed)
+            if thoroughly:
+                self._iterate()
         except RuntimeError as error:
             raise SlamError(
                 "pose graph cannot be solved", expected="a link to every keyframe",
                 got=str(error).splitlines()[0],
             ) from error  # fmt: skip
+        self._index.update(zip(self._waiting, result.getNewFactorsIndices(), strict=True))
         self._factors, self._values = gtsam.NonlinearFactorGraph(), gtsam.Values()
         self._waiting, self._removed = [], []
-        return poses
+
+    def pose(self, key: int) -> FloatArray:
+        """Return the estimate (4, 4) of one pose."""
+        return np.asarray(self._isam.calculateEstimatePose3(key).matrix())
+
+    def poses(self) -> FloatArray:
+        """Return all estimates (N, 4, 4) in the order of their keys."""
+        rows = np.asarray(gtsam.utilities.extractPose3(self._isam.calculateEstimate()))
+        T = np.tile(np.eye(4), (len(rows), 1, 1))
+        T[:, :3, :3] = rows[:, :9].reshape(-1, 3, 3)
+        T[:, :3, 3] = rows[:, 9:]
+        return T
+
+    def _iterate(self) -> None:
+        now = self.poses()
+        for _ in range(self.settings.iterations):
+            self._isam.update(force_relinearize=True)
+            before, now = now, self.poses()
+            if np.abs(now - before).max() < self.settings.converged_m:
+                break
 
     def _add(self, factor: Any) -> int:
         self._factors.add(factor)
         self._waiting.append(self._count)
         self._count += 1
         return self._count - 1
-
-    def _estimate(self) -> FloatArray:
-        rows = np.asarray(gtsam.utilities.extractPose3(self._isam.calculateEstimate()))
-        T = np.tile(np.eye(4), (len(rows), 1, 1))
-        T[:, :3, :3] = rows[:, :9].reshape(-1, 3, 3)
-        T[:, :3, 3] = rows[:, 9:]
-        return T

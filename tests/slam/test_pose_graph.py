@@ -59,7 +59,7 @@ def test_robust_kernel_keeps_a_wrong_loop_from_bending_the_ring(rng):
     ring = _ring()
     errors = {}
     for kernel in ("none", "cauchy"):
-        graph = _graph(ring, 0.002, np.random.default_rng(1), kernel=kernel)
+        graph = _graph(ring, 0.002, np.random.default_rng(1), kernel=kernel, reject_width=1000)
         for i in range(len(ring) - 2):
             graph.add_link(_link(ring, i, i + 2))
         wrong = _link(ring, 1, 7, is_loop=True, error=np.array([0, 1.0, 0, 0.5, 0, 0.5]))
@@ -157,3 +157,38 @@ def test_three_sub_maps_keep_the_world_of_the_first(rng):
     graph.add_link(_link(ring, 4, 1, is_loop=True))
     graph.optimise()
     assert all(np.allclose(graph[i], ring[i], atol=1e-5) for i in range(6))
+
+
+def test_wrong_loops_are_taken_out_and_said(rng):
+    ring = _ring(60)
+    graph = _graph(ring, 0.002, np.random.default_rng(7))
+    right = [_link(ring, i, 59 - i, is_loop=True) for i in range(0, 20, 2)]
+    wrong = [
+        _link(ring, i, 40 + i, is_loop=True, error=np.array([0, 0.5, 0, *rng.normal(size=3)]))
+        for i in range(0, 9, 3)
+    ]
+    without = _graph(ring, 0.002, np.random.default_rng(7))
+    for link in right:
+        without.add_link(link)
+        without.optimise()
+    rejected = []
+    for link in (*right[:4], *wrong, *right[4:]):
+        graph.add_link(link)
+        rejected += graph.optimise()
+    assert {id(link) for link in rejected} == {id(link) for link in wrong}
+    assert graph.rejected == rejected
+    assert len(graph.links) == 59 + len(right)
+    assert all(np.allclose(graph[i], without[i], atol=1e-3) for i in range(60))
+
+
+def test_part_that_hung_on_a_wrong_loop_alone_is_a_sub_map_again(rng):
+    ring = _ring(12)
+    graph = _two_parts(ring, 6, rng)
+    wrong = _link(ring, 0, 6, is_loop=True, error=np.array([0, 1.0, 0, 1.0, 0, 0]))
+    graph.add_link(wrong)
+    graph.optimise()
+    for i in range(4):
+        graph.add_link(_link(ring, i, 11 - i, is_loop=True))
+    assert graph.optimise() == [wrong]
+    assert graph.components == 1
+    assert all(np.allclose(graph[i], ring[i], atol=1e-4) for i in range(12))

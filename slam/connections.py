@@ -1,0 +1,100 @@
+"""Which keyframes hang together: the pose graph without its poses."""
+
+from __future__ import annotations
+
+import heapq
+
+
+class Connections:
+    """Keyframes, the ways between those that are linked, and the components that they form.
+
+    A component is named after its root, the keyframe that it is held by: its oldest. Keyframes
+    that hang on nothing held yet are loose.
+    """
+
+    def __init__(self) -> None:
+        self.roots: set[int] = set()
+        self.loose: set[int] = set()
+        self._component: dict[int, int] = {}
+        self._members: dict[int, list[int]] = {}
+        self._ways: dict[int, dict[int, list[float]]] = {}
+
+    def __contains__(self, keyframe: int) -> bool:
+        return keyframe in self._component
+
+    def add(self, keyframe: int, is_root: bool) -> None:
+        """Add a keyframe without links."""
+        (self.roots if is_root else self.loose).add(keyframe)
+        self._component[keyframe] = keyframe
+        self._members[keyframe] = [keyframe]
+        self._ways[keyframe] = {}
+
+    def component_of(self, keyframe: int) -> int:
+        """Return the root of a keyframe's component."""
+        return self._component[keyframe]
+
+    def linked(self, keyframe: int) -> list[int]:
+        """Return the keyframes that a keyframe is linked to."""
+        return list(self._ways[keyframe])
+
+    def link(self, first: int, second: int, metres: float) -> list[int]:
+        """Add a link; return the keyframes of the younger component if it joins two held ones."""
+        self._ways[first].setdefault(second, []).append(metres)
+        self._ways[second].setdefault(first, []).append(metres)
+        ends = {self._component[first], self._component[second]}
+        if len(ends) == 1:
+            return []
+        kept, other = sorted(ends, key=lambda root: (root not in self.roots, root))
+        members = self._members.pop(other)
+        self._component.update(dict.fromkeys(members, kept))
+        self._members[kept].extend(members)
+        if other in self.roots:
+            self.roots.remove(other)
+            return members
+        if kept in self.roots:
+            self.loose.difference_update(members)
+        return []
+
+    def unlink(self, first: int, second: int, metres: float) -> bool:
+        """Take a link out; return whether a component falls in two, of which both are held."""
+        for end, other in ((first, second), (second, first)):
+            self._ways[end][other].remove(metres)
+            if not self._ways[end][other]:
+                del self._ways[end][other]
+        root = self._component[first]
+        reached = self._reach(root)
+        apart = sorted(set(self._members[root]) - reached)
+        if not apart:
+            return False
+        self._members[root] = [k for k in self._members[root] if k in reached]
+        self._members[apart[0]] = apart
+        self._component.update(dict.fromkeys(apart, apart[0]))
+        self.roots.add(apart[0])
+        return True
+
+    def way_between(self, first: int, second: int, limit: float) -> float:
+        """Return the length of the shortest way along links (Dijkstra), metres.
+
+        Infinite if it is longer than `limit`, or if there is none.
+        """
+        queue, best = [(0.0, first)], {first: 0.0}
+        while queue:
+            metres, keyframe = heapq.heappop(queue)
+            if keyframe == second:
+                return metres
+            if metres > best[keyframe]:
+                continue
+            for other, ways in self._ways[keyframe].items():
+                total = metres + min(ways)
+                if total <= limit and total < best.get(other, float("inf")):
+                    best[other] = total
+                    heapq.heappush(queue, (total, other))
+        return float("inf")
+
+    def _reach(self, start: int) -> set[int]:
+        reached, waiting = {start}, [start]
+        while waiting:
+            fresh = [k for k in self._ways[waiting.pop()] if k not in reached]
+            reached.update(fresh)
+            waiting.extend(fresh)
+        return reached
