@@ -18,6 +18,7 @@ from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel
 from slam.errors import SlamError
 from slam.evaluation import compare
+from slam.map import PointMap
 from slam.slam import Slam
 from slam.tracking import TrackingState
 
@@ -30,7 +31,7 @@ def run_metrics(
     labels: list[FrameLabel],
     trajectory: Trajectory,
     graph: SemanticGraph,
-    map_points: int,
+    points: PointMap,
     clock: StageClock,
     warnings: Iterable[str] = (),
 ) -> dict[str, Any]:
@@ -53,7 +54,8 @@ def run_metrics(
         "fps": round(len(labels) / seconds, 2) if seconds else 0.0,
         "stage_ms": clock.summary(),
         "peak_rss_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
-        "map_points": map_points,
+        "map_points": len(points),
+        **memory_metrics(slam, points),
         "graph_nodes": len(graph.nodes),
         "graph_edges": len(graph.edges),
         "places": list(graph.places),
@@ -65,6 +67,17 @@ def run_metrics(
         frames = [(label.tracking.stamp_s, label.label) for label in labels]
         metrics |= place_metrics(graph, frames, sequence.places)
     return metrics
+
+
+def memory_metrics(slam: Slam, points: PointMap) -> dict[str, Any]:
+    """Return the bytes held by keyframes and map, over the area of the surfaces seen."""
+    held = sum(keyframe.nbytes for keyframe in slam.keyframes.values()) + points.nbytes
+    area = points.surface_m2()
+    return {
+        "surface_m2": round(area, 2),
+        "map_bytes": held,
+        "map_bytes_per_m2": round(held / area) if area else None,
+    }
 
 
 def trajectory_metrics(trajectory: Trajectory, truth: Trajectory) -> dict[str, Any]:

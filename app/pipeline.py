@@ -186,7 +186,7 @@ class Pipeline:
             self.viewer.show_graph(last, graph)
             self.viewer.close()
         metrics = run_metrics(
-            self.sequence, self.slam, self._labelled, trajectory, graph, len(points), self.clock,
+            self.sequence, self.slam, self._labelled, trajectory, graph, points, self.clock,
             self.warnings,
         )  # fmt: skip
         self.recorder.write_metrics(metrics)

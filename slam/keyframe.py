@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,3 +55,10 @@ class Keyframe:
     def colours(self) -> NDArray[np.uint8]:
         """Of the cloud (M, 3)."""
         return self.image.colours
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes held: the image, the features with their points, the planes."""
+        features = (getattr(self.features, field.name) for field in fields(self.features))
+        arrays = [self.points, *features, *(plane.points for plane in self.planes)]
+        return self.image.nbytes + sum(a.nbytes for a in arrays if isinstance(a, np.ndarray))

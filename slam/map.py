@@ -17,6 +17,7 @@ from slam.fusion import Fusion, Voxels
 from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
+from slam.voxels import keys_of
 
 FloatArray = NDArray[np.float64]
 
@@ -67,6 +68,20 @@ class PointMap:
         """Bytes held."""
         arrays = (self.points_world, self.colours, self.keyframes, self.normals)
         return sum(array.nbytes for array in arrays)
+
+    def surface_m2(self, cell_m: float = 0.1) -> float:
+        """Return the area of the surfaces seen, square metres.
+
+        A plane of area A with unit normal n passes through A (|nx| + |ny| + |nz|) / a^2 cells of
+        side a, so every cell that holds a point counts for its share, by its points' mean normal.
+        """
+        if not len(self):
+            return 0.0
+        cells = np.floor(self.points_world / np.float32(cell_m)).astype(np.int32)
+        _, group = np.unique(keys_of(cells), return_inverse=True)
+        sums = np.stack([np.bincount(group, axis) for axis in self.normals.T], axis=-1)
+        spread = np.abs(sums).sum(axis=1) / np.maximum(np.linalg.norm(sums, axis=1), 1e-12)
+        return float((cell_m**2 / np.maximum(spread, 1.0)).sum())
 
     def chosen(self, rows: NDArray[Any]) -> PointMap:
         """Return the map of some points only: their numbers, or (N,) bool."""

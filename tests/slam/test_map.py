@@ -7,8 +7,9 @@ from slam.carving import look_again
 from slam.features import Features
 from slam.fusion import Fusion
 from slam.keyframe import Keyframe
-from slam.map import LiveMap, MapSettings, build_map
+from slam.map import LiveMap, MapSettings, PointMap, build_map
 from slam.noise import SensorNoise
+from slam.planes import Plane
 from slam.range_image import RangeImage
 
 from .helpers import CAMERA, NOISE
@@ -230,3 +231,31 @@ def test_noise_alone_makes_no_surface_empty(rng):
     seen = look_again(voxels, 0.02, images, T, noise)
     assert seen.on.sum() > 10 * len(voxels.keys) * 0.5
     assert seen.is_empty.mean() < 0.01
+
+
+@pytest.mark.parametrize("normal", [(0, 0, 1), (0, 1, 1), (1, 1, 1), (0.2, -0.5, 0.7)])
+def test_the_area_of_a_surface_is_known_however_it_lies(rng, normal):
+    normal = np.array(normal) / np.linalg.norm(normal)
+    across = np.linalg.svd(normal[None])[2][1:]
+    points = rng.uniform(0, 4, (200_000, 2)) @ across + 0.03 * normal
+    count = len(points)
+    plane = PointMap(
+        points.astype(np.float32), np.zeros((count, 3), np.uint8), np.zeros(count, np.int32),
+        np.tile(normal, (count, 1)).astype(np.float32),
+    )  # fmt: skip
+    # Cells at the border count whole.
+    assert plane.surface_m2() == pytest.approx(16, rel=0.08)
+    assert plane.chosen(np.arange(0)).surface_m2() == 0
+
+
+def test_a_keyframes_bytes_are_counted():
+    keyframe = _keyframe(0, _image(2.0))
+    assert keyframe.nbytes == 5 * 64 * 48
+    features = Features(
+        np.zeros((10, 2)), np.zeros((10, 128), np.float32), np.zeros(10, np.float32)
+    )
+    more = Keyframe(
+        0, 0, 0.0, features, np.zeros((10, 3)),
+        (Plane(np.zeros(3), 0.0, np.zeros((100, 3))),), _image(2.0), CAMERA,
+    )  # fmt: skip
+    assert more.nbytes == 5 * 64 * 48 + 10 * (16 + 512 + 4 + 24) + 2400
