@@ -24,7 +24,7 @@ class RelocaliserSettings(Settings):
     candidates: int = Field(10, ge=1, le=100, description="keyframes tried, the most alike first")
     neighbours: int = Field(3, ge=0, le=50, description="keyframes joined to a candidate")
     enough_inliers: int = Field(
-        60, ge=6, description="with so many agreeing matches no other candidate is tried"
+        120, ge=6, description="with so many agreeing matches no other candidate is tried"
     )
 
 

@@ -10,35 +10,54 @@ import typer
 from app import options
 
 
+def _list(wanted: bool) -> None:
+    if not wanted:
+        return
+    from app.exports.formats import EXPORTERS
+
+    width = max(map(len, EXPORTERS))
+    for name, exporter in EXPORTERS.items():
+        typer.echo(f"{name:<{width}}  {exporter.kind}: {exporter.meaning}")
+    raise typer.Exit
+
+
 def export(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
-    format: Annotated[
-        str,
-        typer.Argument(
-            metavar="FORMAT", help="tum, kitti, csv; ply, pcd; g2o; json, graphml, dot."
-        ),
-    ],
+    format: Annotated[str, typer.Argument(metavar="FORMAT", help="One of those above.")],
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Where to write; else into the run."),
     ] = None,
+    list_formats: Annotated[
+        bool,
+        typer.Option("--list", callback=_list, is_eager=True, help="Say what each format is."),
+    ] = False,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
     """Write one product of a run in another format.
 
-    Trajectory: tum, kitti, csv. Map: ply, pcd. Pose graph: g2o. Topological graph: json, graphml,
-    dot.
+    \b
+    trajectory      tum, kitti, csv
+    pose graph      g2o
+    cloud           ply, pcd, las, e57
+    graph           json, graphml, dot, graph-csv, hydra
+    occupancy grid  nav2
 
+    \b
     Examples:
-
       roomgraph export out kitti -o poses.txt
-
-      roomgraph export out dot -o rooms.dot
-    """
+      roomgraph export out las -o floor.las
+      roomgraph export out hydra -o scene_graph.json
+      roomgraph export out nav2 -o floor.yaml
+      roomgraph export --list
+    """  # noqa: D301
     from app.console import Terminal
-    from app.exporting import export_run
+    from app.exports.formats import export_run
     from app.run_folder import RunFolder
 
-    path = export_run(RunFolder(run), format, output, overwrite)
-    Terminal(quiet).say(f"Written to {path}")
+    terminal = Terminal(quiet)
+    files, notes = export_run(RunFolder(run), format, output, overwrite)
+    for note in notes:
+        terminal.say(note, dim=True)
+    terminal.say(f"Written to {', '.join(map(str, files))}")

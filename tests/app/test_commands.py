@@ -10,33 +10,12 @@ import cv2
 import numpy as np
 import pytest
 
-from app.main import main
 from app.run_folder import RunFolder
 from datasets.open import open_sequence
-from datasets.trajectory import read_kitti, read_tum
+from datasets.trajectory import read_tum
 from semantics.graph_io import read_graph_json
+from tests.app.command import roomgraph
 from tests.check_run import problems
-
-
-def roomgraph(monkeypatch, *arguments):
-    """Run the command in this process; return its exit status."""
-    monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])
-    with pytest.raises(SystemExit) as exit_:
-        main()
-    return exit_.value.code or 0
-
-
-@pytest.fixture(scope="module")
-def mapped(rendered_walk, tmp_path_factory):
-    """Folders of a place model and of a run with it, on the rendered walk."""
-    root = tmp_path_factory.mktemp("mapped")
-    with pytest.MonkeyPatch.context() as patch:
-        model = root / "model"
-        status = roomgraph(patch, "train", rendered_walk, "-o", model, "--quiet")
-        assert status == 0
-        arguments = ("run", rendered_walk, "-o", root / "run", "--model", model, "--quiet")
-        assert roomgraph(patch, *arguments) == 0
-    return model, root / "run"
 
 
 def test_a_run_is_whole_and_accurate(mapped):
@@ -74,33 +53,6 @@ def test_label_says_how_right_it_is(mapped, rendered_walk, tmp_path, monkeypatch
     assert rows[0] == "item,label,score,truth"
     assert len(rows) == 61
     assert "all" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    "kind", ["tum", "kitti", "csv", "ply", "pcd", "g2o", "json", "graphml", "dot"]
-)
-def test_exports_are_written(mapped, tmp_path, monkeypatch, kind):
-    _, run = mapped
-    out = tmp_path / f"product.{kind}"
-    assert roomgraph(monkeypatch, "export", run, kind, "-o", out, "--quiet") == 0
-    assert out.stat().st_size > 0
-    assert roomgraph(monkeypatch, "export", run, kind, "-o", out, "--quiet") == 1
-
-
-def test_exported_trajectories_agree(mapped, tmp_path, monkeypatch):
-    _, run = mapped
-    roomgraph(monkeypatch, "export", run, "kitti", "-o", tmp_path / "k.txt", "--quiet")
-    kitti, tum = read_kitti(tmp_path / "k.txt"), read_tum(run / "trajectory.tum")
-    assert np.allclose(kitti.T_world_camera, tum.T_world_camera, atol=1e-6)
-
-
-def test_exported_cloud_opens_in_open3d(mapped, tmp_path, monkeypatch):
-    import open3d as o3d
-
-    _, run = mapped
-    roomgraph(monkeypatch, "export", run, "pcd", "-o", tmp_path / "map.pcd", "--quiet")
-    points = len(o3d.io.read_point_cloud(str(tmp_path / "map.pcd")).points)
-    assert points == RunFolder(run).read_metrics()["map_points"]
 
 
 def _fails(monkeypatch, capsys, *arguments):

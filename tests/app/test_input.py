@@ -1,21 +1,13 @@
 """How a sequence was opened is remembered with the run."""
 
 import shutil
-import sys
 
 import pytest
 
 from app.errors import AppError
 from app.input import InputOptions, read_input, write_input
-from app.main import main
 from app.run_folder import RunFolder
-
-
-def roomgraph(monkeypatch, *arguments):
-    monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])
-    with pytest.raises(SystemExit) as exit_:
-        main()
-    return exit_.value.code or 0
+from tests.app.command import roomgraph
 
 
 def test_options_survive_the_disk(tmp_path, monkeypatch):

@@ -1,0 +1,1 @@
+"""A run's products in the formats of other tools, a file for each kind of product."""
