@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 
 from app.clock import StageClock
+from datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_plan
 from datasets.places import PlaceTruth
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
 from semantics.evaluation import evaluate_frames, evaluate_instances, evaluate_nodes
 from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel
+from semantics.topology_evaluation import evaluate_doorways, evaluate_extents, largest_error
 from slam.errors import SlamError
 from slam.evaluation import compare
 from slam.map import PointMap
@@ -66,7 +68,26 @@ def run_metrics(
     if sequence.places is not None and len(graph.labels) > 1:
         frames = [(label.tracking.stamp_s, label.label) for label in labels]
         metrics |= place_metrics(graph, frames, sequence.places)
+        plan = sequence.root / FILE_NAME
+        if plan.is_file():
+            metrics |= topology_metrics(graph, read_floor_plan(plan), metrics["rooms_matched"])
     return metrics
+
+
+def topology_metrics(
+    graph: SemanticGraph, truth: FloorPlanTruth, matches: dict[str, str]
+) -> dict[str, Any]:
+    """Return how right the places' extents and the doorways are; `matches` is room to place."""
+    places, errors = evaluate_extents(graph, truth.areas_m2, matches)
+    doorways = evaluate_doorways(graph, truth.doorways, matches)
+    return {
+        "place_precision": _rounded(places.precision),
+        "place_recall": _rounded(places.recall),
+        "doorway_precision": _rounded(doorways.precision),
+        "doorway_recall": _rounded(doorways.recall),
+        "area_error": {room: _rounded(error) for room, error in errors.items()},
+        "area_error_max": _rounded(largest_error(errors)),
+    }
 
 
 def memory_metrics(slam: Slam, points: PointMap) -> dict[str, Any]:

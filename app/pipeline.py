@@ -21,6 +21,8 @@ from app.viewer import MapView, SessionView, Viewer
 from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
+from semantics.extents import Vote, with_extents
+from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel, PlaceLabeller
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
@@ -167,7 +169,8 @@ class Pipeline:
         view = self._map_view(points)
         with self.clock.stage("survey"):
             surveyed = self._survey()
-        graph = self.topology.snapshot(self.slam.keyframe_poses)
+        with self.clock.stage("extents"):
+            graph = self._final_graph(surveyed)
         trajectory = self._trajectory()
         with self.clock.stage("write"):
             self.recorder.write_trajectory(trajectory)
@@ -201,7 +204,21 @@ class Pipeline:
         )  # fmt: skip
         for warning in () if found is None else found.warnings:
             logger.warning("%s", warning)
+            self.warnings.append(warning)
         return found
+
+    def _final_graph(self, surveyed: Survey | None) -> SemanticGraph:
+        """Return the graph with the places' extents and the doorways between them."""
+        graph = self.topology.snapshot(self.slam.keyframe_poses)
+        if surveyed is None:
+            return graph
+        known = set(surveyed.keyframes)
+        votes = [
+            Vote(label.tracking.index, self.slam.pose_of(anchor)[:3, 3], label.label, label.score)
+            for label in self._labelled
+            if (anchor := label.tracking.anchor) is not None and anchor.keyframe in known
+        ]
+        return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
 
     def _trajectory(self) -> Trajectory:
         tracked = [

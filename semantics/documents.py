@@ -17,8 +17,8 @@ def write_document(path: Path, schema: str, version: int, content: Mapping[str, 
     write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 
-def read_document(path: Path, schema: str, version: int) -> dict[str, Any]:
-    """Read a JSON file of the given schema and version.
+def read_document(path: Path, schema: str, *versions: int) -> dict[str, Any]:
+    """Read a JSON file of the given schema, of any of the versions, the newest first.
 
     Raises
     ------
@@ -34,9 +34,9 @@ def read_document(path: Path, schema: str, version: int) -> dict[str, Any]:
             "file is not JSON", where=f"{path}:{error.lineno}", expected=schema, got=error.msg
         ) from error
     found = (document.get("schema"), document.get("version")) if isinstance(document, dict) else ()
-    if found != (schema, version):
+    if found not in [(schema, version) for version in versions]:
         raise SemanticsError(
-            "file of another kind", where=path, expected=f"{schema} version {version}",
+            "file of another kind", where=path, expected=f"{schema} version {versions[0]}",
             got=" version ".join(str(part) for part in found) or type(document).__name__,
         )  # fmt: skip
     return dict(document)

@@ -64,12 +64,79 @@ class GraphEdge:
 
 
 @dataclass(frozen=True, slots=True)
+class Extent:
+    """Where a place lies on the floor, in the map frame (z up, floor at 0).
+
+    Attributes
+    ----------
+    name : str
+        The place's (``office2``), as at the nodes.
+    label, label_id : str, int
+        Kind of place.
+    score : float
+        Mean score, over all frames taken in it, of its label; 0 to 1.
+    polygon_map : (N, 2) float64
+        Outline of its floor, counter-clockwise, metres.
+    area_m2 : float
+        Of its floor, furniture included.
+    centre_map : (2,) float64
+        The spot farthest from its walls, metres.
+    """
+
+    name: str
+    label: str
+    label_id: int
+    score: float
+    polygon_map: NDArray[np.float64]
+    area_m2: float
+    centre_map: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Doorway:
+    """A passage between two places: an edge of the graph of places.
+
+    Attributes
+    ----------
+    places : (str, str)
+        Names of the places, the one passed first in front.
+    position_map : (2,) float64
+        Its middle in the map frame, metres.
+    width_m : float or None
+        Clear width; None where the camera passed without looking.
+    """
+
+    places: tuple[str, str]
+    position_map: NDArray[np.float64]
+    width_m: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class SemanticGraph:
-    """Nodes along the path with their places, at the positions known when it was drawn."""
+    """Nodes along the path with their places, at the positions known when it was drawn.
+
+    At the end of a run the places have extents, and doorways join them.
+
+    Attributes
+    ----------
+    labels : LabelSpace
+        Ids and names of the labels.
+    nodes, edges : tuple
+        Spots along the path and what joins them.
+    extents : tuple of Extent
+        Where the places lie, in the order of first passing.
+    doorways : tuple of Doorway
+        What joins the places.
+    T_map_world : (4, 4) float64 or None
+        Maps world points to the map frame; None while there are no extents.
+    """
 
     labels: LabelSpace
     nodes: tuple[GraphNode, ...]
     edges: tuple[GraphEdge, ...]
+    extents: tuple[Extent, ...] = ()
+    doorways: tuple[Doorway, ...] = ()
+    T_map_world: NDArray[np.float64] | None = None
 
     @property
     def places(self) -> tuple[str, ...]:

@@ -11,11 +11,19 @@ import numpy as np
 from datasets.files import replacing
 from semantics.documents import read_document, write_document
 from semantics.errors import SemanticsError
-from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from semantics.graph import (
+    Doorway,
+    EdgeKind,
+    Extent,
+    GraphEdge,
+    GraphNode,
+    SemanticGraph,
+)
 from semantics.labels import LabelSpace
 
-SCHEMA, VERSION = "roomgraph/semantic-graph", 1
-_UNITS = {"position": "m", "length": "m", "stamp": "s"}
+# Version 1 knew no places' extents and no doorways.
+SCHEMA, VERSION, OLD_VERSION = "roomgraph/semantic-graph", 2, 1
+_UNITS = {"position": "m", "length": "m", "stamp": "s", "area": "m2", "width": "m"}
 
 
 def write_graph_json(path: Path, graph: SemanticGraph) -> None:
@@ -36,21 +44,22 @@ def write_graph_json(path: Path, graph: SemanticGraph) -> None:
              "kind": str(e.kind)}
             for e in graph.edges
         ],
+        **_floor(graph),
     }  # fmt: skip
     write_document(path, SCHEMA, VERSION, content)
 
 
 def read_graph_json(path: Path) -> SemanticGraph:
-    """Read what `write_graph_json` wrote.
+    """Read what `write_graph_json` wrote, of this version or the one before.
 
     Raises
     ------
     SemanticsError
         The file is missing or is not such a graph.
     """
-    content = read_document(path, SCHEMA, VERSION)
+    content = read_document(path, SCHEMA, VERSION, OLD_VERSION)
     try:
-        return _graph(content["graph"], content["nodes"], content["links"])
+        return _graph(content["graph"], content["nodes"], content["links"], content)
     except (KeyError, TypeError, ValueError) as error:
         raise _not_understood(path, error) from error
 
@@ -61,7 +70,10 @@ def write_graphml(path: Path, graph: SemanticGraph) -> None:
 
     drawn = networkx.Graph(
         schema=SCHEMA, version=VERSION, frame="world", units=json.dumps(_UNITS),
-        **{key: json.dumps(value) for key, value in _label_space(graph.labels).items()},
+        **{
+            key: json.dumps(value)
+            for key, value in (_label_space(graph.labels) | _floor(graph)).items()
+        },
     )  # fmt: skip
     for node in graph.nodes:
         x, y, z = (float(value) for value in node.position_world)
@@ -93,7 +105,8 @@ def read_graphml(path: Path) -> SemanticGraph:
             for i, values in drawn.nodes(data=True)
         ]  # fmt: skip
         links = [{"source": a, "target": b, **values} for a, b, values in drawn.edges(data=True)]
-        return _graph(labels, nodes, links)
+        floor = {key: json.loads(drawn.graph[key]) for key in _FLOOR if key in drawn.graph}
+        return _graph(labels, nodes, links, floor)
     except OSError as error:
         raise SemanticsError("file cannot be read", where=path, got=str(error)) from error
     except (KeyError, TypeError, ValueError, SyntaxError, networkx.NetworkXError) as error:
@@ -111,14 +124,43 @@ def _node(node: GraphNode) -> dict[str, Any]:
     }  # fmt: skip
 
 
+_FLOOR = ("T_map_world", "places", "doorways")
+
+
+def _floor(graph: SemanticGraph) -> dict[str, Any]:
+    """Return what lies on the floor, in the map frame: z up, floor at 0."""
+    T = graph.T_map_world
+    return {
+        "T_map_world": None if T is None else T.round(9).tolist(),
+        "places": [
+            {"name": e.name, "label": e.label, "label_id": e.label_id, "score": round(e.score, 6),
+             "area": round(e.area_m2, 4), "centre": e.centre_map.round(4).tolist(),
+             "polygon": e.polygon_map.round(4).tolist()}
+            for e in graph.extents
+        ],
+        "doorways": [
+            {"places": list(door.places), "position": door.position_map.round(4).tolist(),
+             "width": None if door.width_m is None else round(door.width_m, 4)}
+            for door in graph.doorways
+        ],
+    }  # fmt: skip
+
+
 def _graph(
-    labels: dict[str, Any], nodes: list[dict[str, Any]], links: list[dict[str, Any]]
+    labels: dict[str, Any],
+    nodes: list[dict[str, Any]],
+    links: list[dict[str, Any]],
+    floor: dict[str, Any],
 ) -> SemanticGraph:
     colours = tuple((int(r), int(g), int(b)) for r, g, b in labels["colours"])
+    T = floor.get("T_map_world")
     return SemanticGraph(
         LabelSpace(tuple(labels["labels"]), colours),
         tuple(_read_node(node) for node in nodes),
         tuple(_read_edge(link) for link in links),
+        tuple(_read_extent(values) for values in floor.get("places", ())),
+        tuple(_read_doorway(values) for values in floor.get("doorways", ())),
+        None if T is None else np.array(T, dtype=np.float64).reshape(4, 4),
     )
 
 
@@ -134,6 +176,21 @@ def _read_node(values: dict[str, Any]) -> GraphNode:
 def _read_edge(values: dict[str, Any]) -> GraphEdge:
     source, target = sorted((int(values["source"]), int(values["target"])))
     return GraphEdge(source, target, float(values["length"]), EdgeKind(values["kind"]))
+
+
+def _read_extent(values: dict[str, Any]) -> Extent:
+    return Extent(
+        str(values["name"]), str(values["label"]), int(values["label_id"]), float(values["score"]),
+        np.array(values["polygon"], dtype=np.float64).reshape(-1, 2), float(values["area"]),
+        np.array(values["centre"], dtype=np.float64).reshape(2),
+    )  # fmt: skip
+
+
+def _read_doorway(values: dict[str, Any]) -> Doorway:
+    first, second = (str(name) for name in values["places"])
+    width = values["width"]
+    position = np.array(values["position"], dtype=np.float64).reshape(2)
+    return Doorway((first, second), position, None if width is None else float(width))
 
 
 def _not_understood(path: Path, error: Exception) -> SemanticsError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datasets.settings import Settings
+from semantics.extents import ExtentSettings
 from semantics.labeller import LabellerSettings
 from semantics.topology import TopologySettings
 from semantics.training import TrainingSettings
@@ -14,3 +15,4 @@ class SemanticsSettings(Settings):
     training: TrainingSettings = TrainingSettings()
     labeller: LabellerSettings = LabellerSettings()
     topology: TopologySettings = TopologySettings()
+    extents: ExtentSettings = ExtentSettings()

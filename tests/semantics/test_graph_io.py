@@ -64,9 +64,9 @@ def test_empty_graph_and_graph_without_model(tmp_path, write, read):
 def test_json_says_what_it_is_and_networkx_reads_it(tmp_path, graph):
     write_graph_json(tmp_path / "graph.json", graph)
     content = json.loads((tmp_path / "graph.json").read_text())
-    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 1)
+    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 2)
     assert content["frame"] == "world"
-    assert content["units"] == {"position": "m", "length": "m", "stamp": "s"}
+    assert content["units"]["position"] == content["units"]["length"] == "m"
     drawn = networkx.node_link_graph(content, edges="links")
     assert networkx.shortest_path_length(drawn, 0, 2, weight="length") == pytest.approx(0.623456)
 
