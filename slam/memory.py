@@ -117,7 +117,7 @@ def write_memory(path: Path, memory: KeyframeMemory) -> None:
         "descriptors": np.concatenate([_as_bytes(f.descriptors) for f in found]),
     }
     with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, **values)
+        np.savez_compressed(file, allow_pickle=False, **values)
 
 
 def read_memory(path: Path) -> KeyframeMemory:
@@ -134,7 +134,8 @@ def read_memory(path: Path) -> KeyframeMemory:
         if str(values["schema"]) != SCHEMA:
             raise ValueError(f"schema {values['schema']}")
         width, height = (int(v) for v in values["size"])
-        intrinsics = Intrinsics(width, height, *(float(v) for v in values["camera"]))
+        fx, fy, cx, cy = (float(v) for v in values["camera"])
+        intrinsics = Intrinsics(width, height, fx, fy, cx, cy)
         return KeyframeMemory(tuple(_keyframes(values)), intrinsics)
     except FileNotFoundError as error:
         raise SlamError(
@@ -171,6 +172,6 @@ def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
 
 
 def _as_bytes(descriptors: NDArray[Any]) -> NDArray[np.uint8]:
-    if descriptors.dtype == np.uint8:
-        return descriptors
-    return np.clip(np.rint(descriptors), 0, 255).astype(np.uint8)
+    if descriptors.dtype != np.uint8:
+        descriptors = np.clip(np.rint(descriptors), 0, 255)
+    return np.asarray(descriptors, dtype=np.uint8)
