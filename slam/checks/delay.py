@@ -12,7 +12,7 @@ from pydantic import Field
 from datasets.settings import Settings
 from slam.checks.edges import Outlines
 from slam.checks.registration import Alignment, score
-from slam.checks.statistics import paired_t
+from slam.checks.statistics import gain_error
 
 
 class DelaySettings(Settings):
@@ -25,7 +25,9 @@ class DelaySettings(Settings):
     min_score: float = Field(
         0.3, gt=0, description="strength of colour edges that outlines have to lie on"
     )
-    min_t: float = Field(3.5, ge=2, description="paired t value against no delay")
+    min_gain: float = Field(
+        4.0, ge=2, description="gain of the fit over that without delay, standard errors"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,36 +49,43 @@ def find_delay(
     before and after it, moved by `alignment` (working pixels). With the camera in motion only
     the one taken at the same time fits.
     """
-    rows = np.array([_scores(window, settings, alignment) for window in windows])
-    known = np.isfinite(rows)
+    if len(windows) < settings.min_windows:
+        return None
+    found = [_scores(window, settings, alignment) for window in windows]
+    rows, pairs = (np.array(side) for side in zip(*found, strict=True))
     none = settings.frames
+    known = pairs >= settings.min_pairs
     comparable = known & known[:, [none]]
-    means = np.array([
-        rows[use, slot].mean() if use.sum() >= settings.min_windows else -np.inf
-        for slot, use in enumerate(comparable.T)
-    ])  # fmt: skip
+    enough = comparable.sum(axis=0) >= settings.min_windows
+    sums = np.where(comparable, rows, 0).sum(axis=0)
+    means = np.where(enough, sums / np.maximum(comparable.sum(axis=0), 1), -np.inf)
     best = int(means.argmax())
     if best == none or means[best] < settings.min_score:
         return None
-    both = rows[comparable[:, best]]
-    if paired_t(list(both[:, best]), list(both[:, none])) < settings.min_t:
+    used = comparable[:, best]
+    # Half a motion off fits half, so the delays beside the best don't count as wrong. A mean over
+    # few pairs varies more by chance: as one over a single pair would, divided.
+    wrong = np.abs(np.arange(rows.shape[1]) - best) > 1
+    singly = np.where(known, rows * np.sqrt(pairs), np.nan)[used][:, wrong]
+    error = gain_error(singly, pairs[used][:, [best, none]])
+    if np.mean(rows[used, best] - rows[used, none]) < settings.min_gain * error:
         return None
     return Delay(best - none, float(means[best]))
 
 
 def _scores(
     window: Sequence[Outlines], settings: DelaySettings, alignment: Alignment | None
-) -> NDArray[np.float64]:
-    """Return the fit (2 n + 1,) of a window for each delay; NaN where too little is to be seen."""
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return the fit (2 n + 1,) of a window for each delay, and of how many pairs it is a mean."""
     delays = range(-settings.frames, settings.frames + 1)
-    scores = np.full(len(delays), np.nan)
+    scores, pairs = np.zeros(len(delays)), np.zeros(len(delays), dtype=np.int64)
     for slot, delay in enumerate(delays):
-        pairs = [
+        found = [
             score(replace(colour, pixels=window[i + delay].pixels), alignment)
             for i, colour in enumerate(window)
             if 0 <= i + delay < len(window)
             and len(window[i + delay].pixels) >= settings.min_outline
         ]
-        if len(pairs) >= settings.min_pairs:
-            scores[slot] = np.mean(pairs)
-    return scores
+        if found:
+            scores[slot], pairs[slot] = np.mean(found), len(found)
+    return scores, pairs

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from scipy import fft
 
 from datasets.settings import Settings
 from slam.checks.edges import Outlines
-from slam.checks.statistics import paired_t
+from slam.checks.statistics import gain_error
 
 FloatArray = NDArray[np.float64]
 
@@ -31,11 +31,13 @@ class RegistrationSettings(Settings):
         description="typical displacement that is let pass, as a share of the image's width",
     )  # fmt: skip
     min_outline: int = Field(100, ge=10, description="frames with fewer outline pixels don't vote")
-    min_frames: int = Field(8, ge=4, description="fewer voting frames decide nothing")
+    min_windows: int = Field(5, ge=4, description="fewer stretches of frames decide nothing")
     min_score: float = Field(
         0.3, gt=0, description="strength of colour edges that outlines have to lie on"
     )
-    min_t: float = Field(4.0, ge=2, description="paired t value against an undisplaced depth image")
+    min_gain: float = Field(
+        4.0, ge=2, description="gain of the fit over that of the depth as it is, standard errors"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,35 +87,56 @@ def score(found: Outlines, alignment: Alignment | None = None) -> float:
 
 
 def find_misplacement(
-    frames: Sequence[Outlines], settings: RegistrationSettings
+    windows: Sequence[Sequence[Outlines]], settings: RegistrationSettings
 ) -> Misplaced | None:
     """Return how depth lies beside colour, or None where it fits or nothing can be said.
 
     Outlines of the foreground are edges in the colour image too, if the one lies on the other.
     Over all sizes and shifts, the correlation of both has its peak at the true alignment. It is
-    searched in each half of the frames and believed if both halves agree and if the frames of
+    searched in each half of the windows and believed if both halves agree and if the windows of
     the one fit better under the alignment of the other than without any.
     """
-    voting = [f for f in frames if len(f.pixels) >= settings.min_outline]
-    if len(voting) < settings.min_frames:
+    voting = [[f for f in window if len(f.pixels) >= settings.min_outline] for window in windows]
+    voting = [window for window in voting if window]
+    if len(voting) < settings.min_windows:
         return None
-    shape = voting[0].edges.shape
+    shape, step = voting[0][0].edges.shape, voting[0][0].step
     tolerance = settings.tolerance * shape[1]
     halves = voting[::2], voting[1::2]
-    first, second = (_search(half, settings) for half in halves)
+    first, second = (_search([f for window in half for f in window], settings) for half in halves)
     between = Alignment(1 + first.scale - second.scale, first.dx - second.dx, first.dy - second.dy)
     if between.displacement(shape) > tolerance:
         return None
     if min(first.displacement(shape), second.displacement(shape)) <= tolerance:
         return None
-    moved = [score(f, second) for f in halves[0]] + [score(f, first) for f in halves[1]]
-    unmoved = [score(f) for half in halves for f in half]
-    if np.mean(moved) < settings.min_score or paired_t(moved, unmoved) < settings.min_t:
+    rows = np.concatenate([
+        _compare(half, alignment, settings.reach * shape[1])
+        for half, alignment in zip(halves, (second, first), strict=True)
+    ])  # fmt: skip
+    best, none, wrong = rows[:, 0], rows[:, 1], rows[:, 2:]
+    error = gain_error(wrong, np.ones((len(rows), 2), dtype=np.int64))
+    if best.mean() < settings.min_score or np.mean(best - none) < settings.min_gain * error:
         return None
     middle = Alignment(
         (first.scale + second.scale) / 2, (first.dx + second.dx) / 2, (first.dy + second.dy) / 2
     )
-    return Misplaced(middle.resized(voting[0].step), float(np.mean(moved)))
+    return Misplaced(middle.resized(step), float(best.mean()))
+
+
+def _compare(windows: Sequence[Sequence[Outlines]], alignment: Alignment, far: float) -> FloatArray:
+    """Return scores of windows (N, 10): under an alignment, under none, and under wrong ones.
+
+    The wrong ones are off by `far` working pixels, in eight directions.
+    """
+    directions = np.linspace(0, 2 * np.pi, 8, endpoint=False)
+    wrong = [
+        replace(alignment, dx=alignment.dx + far * np.cos(a), dy=alignment.dy + far * np.sin(a))
+        for a in directions
+    ]
+    return np.array([
+        [np.mean([score(frame, tried) for frame in window]) for tried in (alignment, None, *wrong)]
+        for window in windows
+    ])  # fmt: skip
 
 
 def _search(frames: Sequence[Outlines], settings: RegistrationSettings) -> Alignment:

@@ -108,13 +108,13 @@ def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings
     Each can look like the other while the camera moves evenly: the better fit is believed.
     """
     delay = find_delay(evidence.windows, settings.delay)
-    spread = [frame for window in evidence.windows for frame in window[::REGISTRATION_STEP]]
+    spread = [window[::REGISTRATION_STEP] for window in evidence.windows]
     misplaced = find_misplacement(spread, settings.registration)
     if misplaced is None:
         return [] if delay is None else [_late(delay, sequence)]
     if delay is not None and delay.score >= misplaced.score:
         return [_late(delay, sequence)]
-    step = spread[0].step
+    step = spread[0][0].step
     later = find_delay(evidence.windows, settings.delay, misplaced.alignment.resized(1 / step))
     found = [_unregistered(misplaced)]
     return found if later is None else [*found, _late(later, sequence)]

@@ -1,0 +1,177 @@
+"""What the data says against itself, on a walk through the rendered building made wrong."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from datasets.camera import Intrinsics
+from datasets.errors import DatasetError
+from slam.checks import CheckSettings, check_sequence
+from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
+from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
+from slam.checks.registration import Alignment
+from slam.checks.statistics import gain_error
+
+KINECT = Intrinsics(640, 480, 525.0, 525.0, 319.5, 239.5)
+
+
+@dataclass
+class Bent:
+    """A sequence whose frames or camera are changed on the way."""
+
+    source: Any
+    change: Any = None
+    new_camera: Any = None
+
+    def __len__(self):
+        return len(self.source)
+
+    def __getattr__(self, name):
+        return getattr(self.source, name)
+
+    @property
+    def camera(self):
+        return self.new_camera or self.source.camera
+
+    def __getitem__(self, index):
+        frame = self.source[index]
+        return frame if self.change is None else self.change(frame, index)
+
+
+def check(sequence, change=None, camera=None):
+    return check_sequence(Bent(sequence, change, camera), CheckSettings())
+
+
+def moved(dx, dy, scale=1.0):
+    """Return a change that scales the depth about the middle and shifts it."""
+
+    def change(frame, index):
+        height, width = frame.depth.shape
+        middle = np.array([width - 1, height - 1]) / 2
+        offset = middle - scale * middle + (dx, dy)
+        M = np.column_stack([scale * np.eye(2), offset])
+        depth = cv2.warpAffine(frame.depth, M, (width, height), flags=cv2.INTER_NEAREST)
+        return replace(frame, depth=depth)
+
+    return change
+
+
+def test_good_data_gives_no_warning(rendered_sequence):
+    assert check(rendered_sequence) == ()
+
+
+@pytest.mark.parametrize(("factor", "suggested"), [(0.2, 5000), (5, 5000), (1e-3, 5000)])
+def test_wrong_depth_scales_are_named_with_the_right_one(rendered_sequence, factor, suggested):
+    def change(frame, index):
+        return replace(frame, depth=frame.depth * np.float32(factor))
+
+    camera = replace(rendered_sequence.camera, depth_scale=5000 / factor)
+    (finding,) = check(rendered_sequence, change, camera)
+    assert finding.kind == "depth scale"
+    assert f"--depth-scale {suggested} " in str(finding)
+
+
+@pytest.mark.parametrize(("dx", "dy", "scale"), [(10, 0, 1), (-15, 6, 1), (6, 2, 1.1)])
+def test_unregistered_depth_is_measured(rendered_sequence, dx, dy, scale):
+    (finding,) = check(rendered_sequence, moved(dx, dy, scale))
+    assert finding.kind == "registration"
+    numbers = finding.observed.split("shifted by (")[1].split(")")[0].split(",")
+    # To bring it back: the inverse of what was done, within the width of an outline.
+    assert np.allclose([float(n) for n in numbers], [-dx / scale, -dy / scale], atol=3)
+    found = (
+        finding.observed.split("scaled by ")[1].split()[0] if "scaled" in finding.observed else 1
+    )
+    assert np.isclose(float(found), 1 / scale, atol=0.03)
+
+
+@pytest.mark.parametrize("late", [1, 3, -2])
+def test_a_time_offset_is_counted_in_frames(rendered_sequence, late):
+    def change(frame, index):
+        other = min(max(index - late, 0), len(rendered_sequence) - 1)
+        return replace(frame, depth=rendered_sequence[other].depth)
+
+    (finding,) = check(rendered_sequence, change)
+    assert finding.kind == "time offset"
+    plural = "s" if abs(late) > 1 else ""
+    assert f"{abs(late)} frame{plural} " in finding.observed
+    assert ("late" if late > 0 else "early") in finding.observed
+    assert f"by {'-' if late > 0 else '+'}{abs(late) / 30:.3g} s" in finding.suggestion
+
+
+def test_nothing_is_said_of_images_without_outlines(rendered_sequence):
+    def flat(frame, index):
+        return replace(frame, depth=np.full_like(frame.depth, 2.0))
+
+    def dark(frame, index):
+        return replace(frame, colour=np.zeros_like(frame.colour))
+
+    assert check(rendered_sequence, flat) == ()
+    assert check(rendered_sequence, dark) == ()
+
+
+def test_unreadable_frames_are_left_to_the_run(rendered_sequence):
+    def broken(frame, index):
+        raise DatasetError("image is cut short")
+
+    assert check(rendered_sequence, broken) == ()
+
+
+def test_swapped_principal_point():
+    finding = find_wrong_intrinsics(replace(KINECT, cx=239.5, cy=319.5), IntrinsicsSettings())
+    assert "swapped" in finding.suggestion
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0, 1.5])
+def test_intrinsics_of_another_resolution(factor):
+    other = replace(KINECT, cx=factor * 320 - 0.5, cy=factor * 240 - 0.5)
+    finding = find_wrong_intrinsics(other, IntrinsicsSettings())
+    assert f"{640 * factor:.0f}x{480 * factor:.0f}" in finding.suggestion
+
+
+def test_a_focal_length_in_other_units():
+    finding = find_wrong_intrinsics(replace(KINECT, fx=0.82, fy=1.09), IntrinsicsSettings())
+    assert "field of view" in finding.observed
+
+
+@pytest.mark.parametrize(
+    "camera",
+    [
+        KINECT,
+        replace(KINECT, fx=517.3, fy=516.5, cx=318.6, cy=255.3),
+        Intrinsics(512, 512, 256.0, 256.0, 255.5, 255.5),
+        Intrinsics(1920, 1440, 1447.0, 1447.0, 953.0, 729.0),
+        Intrinsics(512, 424, 365.0, 365.0, 258.0, 206.0),
+        Intrinsics(1280, 720, 605.0, 605.0, 640.0, 366.0),
+    ],
+)
+def test_usual_cameras_are_fine(camera):
+    assert find_wrong_intrinsics(camera, IntrinsicsSettings()) is None
+
+
+def test_close_ups_and_halls_are_no_mistake(rng):
+    settings = DepthScaleSettings()
+    close_up, hall = rng.uniform(0.3, 0.6, 1000), rng.uniform(3, 9.5, 1000)
+    assert find_wrong_scale(close_up, 1000, settings) is None
+    assert find_wrong_scale(hall, 1000, settings) is None
+    assert find_wrong_scale(np.empty(0), 1000, settings) is None
+
+
+def test_displacement_is_the_mean_over_the_image():
+    y, x = np.mgrid[:48, :64]
+    pixels = np.column_stack([x.ravel(), y.ravel()]).astype(np.float32)
+    alignment = Alignment(0.9, 2.0, -1.0)
+    far = np.linalg.norm(alignment.apply(pixels, (48, 64)) - pixels, axis=1)
+    assert np.isclose(alignment.displacement((48, 64)), np.sqrt(np.mean(far**2)), rtol=1e-3)
+
+
+def test_gains_by_chance_have_the_error_said(rng):
+    counts = np.array([[8, 3], [7, 2], [8, 8], [4, 5]])
+    gains, errors = [], []
+    for _ in range(400):
+        first, second = (rng.normal(size=4) / np.sqrt(counts[:, k]) for k in (0, 1))
+        gains.append(np.mean(first - second))
+        errors.append(gain_error(rng.normal(size=(4, 9)), counts))
+    assert np.isclose(np.std(gains), np.mean(errors), rtol=0.1)
