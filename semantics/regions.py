@@ -171,12 +171,27 @@ def _completed(
         # Through a hole in a wall, narrower than the square, nothing flows.
         open_ = ndimage.binary_opening(open_, square) | seen[window]
         full = ndimage.binary_propagation(seen[window], mask=open_)
-        full = ndimage.binary_fill_holes(full)
+        full = ndimage.binary_fill_holes(_corners(full, seen[window]))
         mine = (regions[window] == 0) | (regions[window] == region)
         if (full & mine).mean() >= settings.squareness:
             full = np.ones_like(full)
         result[window][full & mine & (result[window] == 0)] = region
     return result
+
+
+def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:
+    """Return what was seen with those unseen pieces of `full` that are no more than corners of it.
+
+    Cut off by a straight edge of sight, a corner's area is a quarter of the edge's square at most;
+    what is larger than the square is a room of its own behind a gap.
+    """
+    pieces, _ = ndimage.label(full & ~seen, _NEIGHBOURS)
+    contact = ndimage.binary_dilation(seen, _NEIGHBOURS) & (pieces > 0)
+    areas = np.bincount(pieces.ravel())
+    edges = np.bincount(pieces[contact], minlength=len(areas))
+    is_corner = areas <= edges**2
+    is_corner[0] = False
+    return np.asarray(seen | is_corner[pieces])
 
 
 def _flood(width: NDArray[np.float64], cell_m: float) -> tuple[RegionImage, dict[int, float]]:

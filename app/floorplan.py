@@ -1,0 +1,171 @@
+"""The floor plan as a drawing: rooms, walls, doorways, the way walked and the graph's nodes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib import patheffects, rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.path import Path as Outline
+from numpy.typing import NDArray
+
+from datasets import poses
+from datasets.files import replacing
+from semantics.graph import Doorway, SemanticGraph
+from slam.occupancy import FREE, OCCUPIED, OccupancyGrid
+
+FloatArray = NDArray[np.float64]
+# For a page as wide as a phone: a figure of this width with this type is legible on one.
+WIDTH_INCHES = 6.0
+_LARGE, _SMALL = 10.0, 5.5
+_WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
+_SEEN = (243, 243, 240, 255)
+# What is occupied this near to a room's outline is its wall, further in it is furniture.
+_WALL_REACH_M = 0.12
+_INK = "#22262e"
+
+
+def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: FloatArray) -> Figure:
+    """Draw the floor from above, in the map frame.
+
+    Parameters
+    ----------
+    graph : SemanticGraph
+        With the places' extents, where known.
+    grid : OccupancyGrid
+        Walls and furniture.
+    path_world : (N, 3) float64
+        Camera centres in the order of time, metres.
+    """
+    window = _window(graph, grid)
+    size = window[:, 1] - window[:, 0]
+    height = float(np.clip(WIDTH_INCHES * size[1] / size[0], 2.0, 9.0))
+    figure = Figure(figsize=(WIDTH_INCHES, height + 0.35), facecolor="white")
+    axes = figure.add_axes((0.01, 0.01, 0.98, 0.98))
+    axes.set(xlim=window[0], ylim=(window[1, 0] - 0.09 * size[0], window[1, 1]), aspect="equal")
+    axes.axis("off")
+    _draw_rooms(axes, graph)
+    _draw_cells(axes, graph, grid)
+    for door in graph.doorways:
+        _draw_doorway(axes, door, grid)
+    path = poses.transform(grid.T_map_world, path_world)
+    axes.plot(path[:, 0], path[:, 1], color=_INK, lw=0.7, alpha=0.55, zorder=4)
+    if len(path):
+        axes.plot(*path[0, :2], marker="o", ms=6, mfc="white", mec=_INK, mew=1.2, zorder=7)
+    nodes = poses.transform(grid.T_map_world, graph.positions)
+    colours = [_colour(graph, node.label_id) for node in graph.nodes]
+    axes.scatter(nodes[:, 0], nodes[:, 1], s=13, c=colours or None, ec="white", lw=0.6, zorder=5)
+    _name_rooms(axes, graph, WIDTH_INCHES * 72 / float(size[0]))
+    _draw_scale(axes, window, float(size[0]))
+    return figure
+
+
+def save_floor_plan(figure: Figure, png: Path, svg: Path) -> None:
+    """Write a floor plan as PNG and SVG; the same plan gives the same bytes."""
+    with replacing(png) as temporary:
+        figure.savefig(temporary, dpi=200)
+    with rc_context({"svg.hashsalt": "roomgraph", "svg.fonttype": "none"}):
+        with replacing(svg) as temporary:
+            figure.savefig(temporary, metadata={"Date": None})
+
+
+def _window(graph: SemanticGraph, grid: OccupancyGrid) -> FloatArray:
+    """Return lowest and highest x, lowest and highest y (2, 2) of all that is to be seen."""
+    if graph.extents:
+        points = np.concatenate([extent.polygon_map for extent in graph.extents])
+    else:
+        rows, columns = np.nonzero(grid.cells >= FREE)
+        points = np.column_stack([columns, rows]) * grid.cell_m + grid.origin_xy
+    if not len(points):
+        points = np.zeros((1, 2))
+    return np.column_stack([points.min(axis=0) - 0.4, points.max(axis=0) + 0.4])
+
+
+def _draw_rooms(axes: Axes, graph: SemanticGraph) -> None:
+    for extent in graph.extents:
+        colour = _colour(graph, extent.label_id)
+        axes.fill(*extent.polygon_map.T, fc=(*colour, 0.30), ec=(*colour, 0.9), lw=1.0, zorder=1)
+
+
+def _draw_cells(axes: Axes, graph: SemanticGraph, grid: OccupancyGrid) -> None:
+    """Paint walls dark and furniture lighter; free space without a room hardly at all."""
+    occupied = grid.cells == OCCUPIED
+    image = np.zeros((*grid.cells.shape, 4), dtype=np.uint8)
+    if not graph.extents:
+        image[grid.cells == FREE] = _SEEN
+    image[occupied] = _WALL
+    rows, columns = np.nonzero(occupied)
+    centres = (np.column_stack([columns, rows]) + 0.5) * grid.cell_m + grid.origin_xy
+    for extent in graph.extents:
+        outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
+        inside = outline.contains_points(centres, radius=-_WALL_REACH_M)
+        image[rows[inside], columns[inside]] = _FURNITURE
+    low = grid.origin_xy
+    high = low + np.array(grid.cells.shape[::-1]) * grid.cell_m
+    limits = axes.axis()
+    axes.imshow(
+        image, extent=(low[0], high[0], low[1], high[1]), origin="lower",
+        interpolation="nearest", zorder=2,
+    )  # fmt: skip
+    axes.axis(limits)
+
+
+def _draw_doorway(axes: Axes, door: Doorway, grid: OccupancyGrid) -> None:
+    """Draw a white gap with jambs along the wall that the doorway is in."""
+    half = (door.width_m or 0.8) / 2
+    along = _wall_direction(door.position_map, grid)
+    ends = door.position_map + np.array([[-half], [half]]) * along
+    axes.plot(*ends.T, color="white", lw=4.0, solid_capstyle="butt", zorder=3)
+    axes.plot(*ends.T, color="#b4572a", lw=1.6, solid_capstyle="butt", zorder=3)
+
+
+def _wall_direction(position: FloatArray, grid: OccupancyGrid) -> FloatArray:
+    """Return the map's axis (2,) along which there is more wall around a spot."""
+    column, row = ((position - grid.origin_xy) / grid.cell_m).astype(int)
+    far, near = round(1.2 / grid.cell_m), round(0.15 / grid.cell_m)
+    occupied = np.pad(grid.cells == OCCUPIED, far)
+    row, column = row + far, column + far
+    across = occupied[row - near : row + near + 1, column - far : column + far + 1].sum()
+    upwards = occupied[row - far : row + far + 1, column - near : column + near + 1].sum()
+    return np.array([1.0, 0.0]) if across >= upwards else np.array([0.0, 1.0])
+
+
+def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:
+    """Write each place's name and area into it, as large as fits."""
+    halo = [patheffects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)]
+    for extent in graph.extents:
+        name = extent.name.replace("_", " ")
+        width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
+        size = float(np.clip(width / (0.62 * max(len(name), 6)), _SMALL, _LARGE))
+        axes.text(
+            *_middle(extent.polygon_map, extent.centre_map),
+            f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
+            color=_INK, fontweight="bold", linespacing=1.25, path_effects=halo, zorder=6,
+        )  # fmt: skip
+
+
+def _middle(polygon: FloatArray, centre: FloatArray) -> FloatArray:
+    """Return the middle of a room's box if it lies in the room, else the spot far from walls."""
+    middle = (polygon.min(axis=0) + polygon.max(axis=0)) / 2
+    return middle if Outline(polygon).contains_point(tuple(middle)) else centre
+
+
+def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
+    """Draw a bar of one, two or five times a power of ten metres, about a fifth of the width."""
+    power = 10.0 ** np.floor(np.log10(width_m / 5))
+    length = max(step * power for step in (1, 2, 5) if step * power <= width_m / 5)
+    x, y = window[0, 0] + 0.02 * width_m, window[1, 0] - 0.045 * width_m
+    axes.plot([x, x + length], [y, y], color=_INK, lw=2.5, solid_capstyle="butt")
+    axes.text(x + length + 0.012 * width_m, y, f"{length:g} m", va="center", fontsize=9, color=_INK)
+    entries = [("o", "start"), ("—", "way walked"), ("•", "graph node")]
+    text = "   ".join(f"{mark} {word}" for mark, word in entries)
+    axes.text(
+        window[0, 1] - 0.02 * width_m, y, text, va="center", ha="right", fontsize=7.5, color=_INK
+    )
+
+
+def _colour(graph: SemanticGraph, label_id: int) -> tuple[float, float, float]:
+    red, green, blue = (value / 255 for value in graph.labels.colours[label_id])
+    return red, green, blue
