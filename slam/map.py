@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from slam.fusion import Fusion, Voxels
 from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
-from slam.voxels import keys_of
+from slam.voxels import voxels_of
 
 FloatArray = NDArray[np.float64]
 
@@ -77,8 +77,7 @@ class PointMap:
         """
         if not len(self):
             return 0.0
-        cells = np.floor(self.points_world / np.float32(cell_m)).astype(np.int32)
-        _, group = np.unique(keys_of(cells), return_inverse=True)
+        _, group = np.unique(voxels_of(self.points_world, cell_m), return_inverse=True)
         sums = np.stack([np.bincount(group, axis) for axis in self.normals.T], axis=-1)
         spread = np.abs(sums).sum(axis=1) / np.maximum(np.linalg.norm(sums, axis=1), 1e-12)
         return float((cell_m**2 / np.maximum(spread, 1.0)).sum())
@@ -102,15 +101,43 @@ def build_map(
     follows the space seen (see `slam.fusion`), not the number of keyframes.
     """
     images = [(keyframe.id, keyframe.image) for keyframe in keyframes]
-    fusion = Fusion(settings.voxel_m, noise)
-    for keyframe, image in images:
-        fusion.add(keyframe, image, T_world_keyframe[keyframe])
-    voxels = fusion.voxels()
+    voxels = _fused(images, T_world_keyframe, settings.voxel_m, noise)
     points = _as_map(voxels)
     if settings.carve and len(points):
         seen = look_again(voxels, settings.voxel_m, images, T_world_keyframe, noise)
         points = points.chosen(~seen.is_empty)
     return points
+
+
+def without_moved(
+    images: Sequence[tuple[int, RangeImage]],
+    T_world_keyframe: Mapping[int, FloatArray],
+    voxel_m: float,
+    noise: SensorNoise,
+) -> list[tuple[int, RangeImage]]:
+    """Return keyframes' images without the readings that `build_map` would drop."""
+    voxels = _fused(images, T_world_keyframe, voxel_m, noise)
+    seen = look_again(voxels, voxel_m, images, T_world_keyframe, noise)
+    dropped = voxels.keys[seen.is_empty]
+    left = []
+    for keyframe, image in images:
+        points_world = poses.transform(T_world_keyframe[keyframe], image.points)
+        depth_mm = image.depth_mm.copy()
+        depth_mm[depth_mm > 0] *= ~np.isin(voxels_of(points_world, voxel_m), dropped)
+        left.append((keyframe, replace(image, depth_mm=depth_mm)))
+    return left
+
+
+def _fused(
+    images: Iterable[tuple[int, RangeImage]],
+    T_world_keyframe: Mapping[int, FloatArray],
+    voxel_m: float,
+    noise: SensorNoise,
+) -> Voxels:
+    fusion = Fusion(voxel_m, noise)
+    for keyframe, image in images:
+        fusion.add(keyframe, image, T_world_keyframe[keyframe])
+    return fusion.voxels()
 
 
 class LiveMap:

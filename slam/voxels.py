@@ -39,6 +39,11 @@ def keys_of(cells: NDArray[np.int32]) -> IntArray:
     return ((block << side | (x & low)) << side | (y & low)) << side | (z & low)
 
 
+def voxels_of(points: NDArray[np.floating], voxel_m: float) -> IntArray:
+    """Return the numbers (N,) of the voxels of side `voxel_m` that points (N, 3) lie in."""
+    return keys_of(np.floor(points / voxel_m).astype(np.int32))
+
+
 def cells_of(keys: IntArray) -> NDArray[np.int32]:
     """Return the voxels (N, 3) that have numbers `keys` (N,)."""
     low, side, block = (1 << SIDE_BITS) - 1, SIDE_BITS, keys >> 3 * SIDE_BITS

@@ -7,7 +7,7 @@ from slam.carving import look_again
 from slam.features import Features
 from slam.fusion import Fusion
 from slam.keyframe import Keyframe
-from slam.map import LiveMap, MapSettings, PointMap, build_map
+from slam.map import LiveMap, MapSettings, PointMap, build_map, without_moved
 from slam.noise import SensorNoise
 from slam.planes import Plane
 from slam.range_image import RangeImage
@@ -208,6 +208,19 @@ def test_a_thing_that_walks_through_leaves_no_trail(rng):
     found = build_map(walk, T, SETTINGS, NOISE)
     whole = build_map(walk, T, SETTINGS.model_copy(update={"carve": False}), NOISE)
     assert _box_points(found) < 0.1 * _box_points(whole)
+
+
+def test_a_mesh_can_do_without_what_has_moved(rng):
+    there = [_box_before_wall(rng, 20, 40, i).image for i in range(2)]
+    gone = [_box_before_wall(rng, 0, 0, 2 + i).image for i in range(4)]
+    images, T = list(enumerate(there + gone)), {i: np.eye(4) for i in range(6)}
+    left = [image for _, image in without_moved(images, T, 0.02, NOISE)]
+    for before, after in zip(there, left, strict=False):
+        box = (before.depth_mm > 0) & (before.depth_mm < 2200)
+        assert (after.depth_mm[box] > 0).mean() < 0.15
+        assert np.array_equal(after.depth_mm[~box], before.depth_mm[~box])
+    for before, after in zip(gone, left[2:], strict=True):
+        assert np.array_equal(after.depth_mm, before.depth_mm)
 
 
 def test_a_thing_that_stays_stays(rng):
