@@ -9,21 +9,24 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from rich.table import Table
 
 from app.console import Advance
+from app.input import open_input
 from app.prefetch import prefetch
 from app.training import labelled_examples
 from datasets import sequence as sequences
 from datasets.errors import DatasetError, RoomgraphError
 from datasets.files import write_text
+from datasets.frame import Frame
 from datasets.images import IMAGE_SUFFIXES, read_colour
-from datasets.open import guess_layout, open_sequence
+from datasets.open import guess_layout
 from semantics.errors import SemanticsError
 from semantics.evaluation import compare_labels
 from semantics.examples import Example
 from semantics.labeller import LabellerSettings, PlaceLabeller
-from semantics.model import PlaceModel
+from semantics.model import PlaceModel, PlacePrediction
 from slam.features import FeatureExtractor, Features
 from slam.tracking import Tracking, TrackingState
 
@@ -38,21 +41,46 @@ class LabelledItem:
     truth: str
 
 
-def label_items(model: PlaceModel, data: Path, advance: Advance) -> list[LabelledItem]:
+def label_items(
+    model: PlaceModel,
+    data: Path,
+    advance: Advance,
+    settings: LabellerSettings | None = None,
+    dataset: str | None = None,
+    camera: Path | None = None,
+) -> list[LabelledItem]:
     """Label an image, a folder of images (class/image, or flat), or a sequence.
+
+    Parameters
+    ----------
+    model : PlaceModel
+        What predicts.
+    data : Path
+        What to label.
+    advance : callable
+        Called with items done, items in all and the last label.
+    settings : LabellerSettings, optional
+        The vote among the frames of a sequence.
+    dataset, camera : str and Path, optional
+        Layout and camera file of a sequence, where they cannot be guessed.
 
     Raises
     ------
     RoomgraphError
         There is nothing to label, or an image cannot be read.
     """
-    if data.is_dir():
-        try:
-            layout = guess_layout(data)
-        except DatasetError:
-            return list(_label_images(model, _images(data), advance))
-        return list(_label_sequence(model, open_sequence(data, layout), advance))
-    return list(_label_images(model, [_unlabelled(data)], advance))
+    if dataset is not None or camera is not None or _is_sequence(data):
+        sequence = open_input(data, dataset, camera)
+        return list(_label_sequence(model, sequence, settings or LabellerSettings(), advance))
+    examples = _images(data) if data.is_dir() else [_unlabelled(data)]
+    return list(_label_images(model, examples, advance))
+
+
+def _is_sequence(data: Path) -> bool:
+    try:
+        return data.is_dir() and bool(guess_layout(data))
+    except DatasetError:
+        return False
 
 
 def write_labels_csv(path: Path, items: Sequence[LabelledItem]) -> None:
@@ -93,32 +121,44 @@ def _unlabelled(path: Path) -> Example:
     return Example(str(path), "", str(path), lambda: read_colour(path))
 
 
+def _features(
+    model: PlaceModel, extractor: FeatureExtractor, colour: NDArray[np.uint8]
+) -> Features:
+    """Return the features that a model asks for: none if it describes images itself."""
+    return Features.none() if model.encoder is not None else extractor.extract_image(colour)
+
+
 def _label_images(
     model: PlaceModel, examples: list[Example], advance: Advance
 ) -> Iterator[LabelledItem]:
     extractor = FeatureExtractor(model.features)
-    found = prefetch(lambda example: extractor.extract_image(example.read()), examples)
-    for done, (example, features) in enumerate(zip(examples, found, strict=True), 1):
-        prediction = model.predict(features)
+
+    def predict(example: Example) -> PlacePrediction:
+        colour = example.read()
+        return model.predict(_features(model, extractor, colour), colour)
+
+    for done, (example, prediction) in enumerate(
+        zip(examples, prefetch(predict, examples), strict=True), 1
+    ):
         advance(done, len(examples), prediction.label)
         yield LabelledItem(example.name, prediction.label, prediction.score, example.label)
 
 
 def _label_sequence(
-    model: PlaceModel, sequence: sequences.Sequence, advance: Advance
+    model: PlaceModel, sequence: sequences.Sequence, settings: LabellerSettings, advance: Advance
 ) -> Iterator[LabelledItem]:
     extractor = FeatureExtractor(model.features)
-    labeller = PlaceLabeller(model, LabellerSettings())
+    labeller = PlaceLabeller(model, settings)
 
-    def describe(index: int) -> tuple[float, Features]:
+    def describe(index: int) -> tuple[Frame, Features]:
         frame = sequence[index]
-        return frame.stamp_s, extractor.extract(frame)
+        return frame, _features(model, extractor, frame.colour)
 
-    for index, (stamp, features) in enumerate(prefetch(describe, range(len(sequence)))):
+    for index, (frame, features) in enumerate(prefetch(describe, range(len(sequence)))):
         tracking = Tracking(
-            index, stamp, TrackingState.SKIPPED, 0, "none", None, None, False, (), features
+            index, frame.stamp_s, TrackingState.SKIPPED, 0, "none", None, None, False, (), features
         )
-        labels = labeller.process(tracking)
+        labels = labeller.process(tracking, frame.colour)
         if index + 1 == len(sequence):
             labels += labeller.finish()
         for label in labels:

@@ -92,7 +92,7 @@ class Pipeline:
             try:
                 for view in self._views():
                     tracking = self._track(view)
-                    self._label(tracking)
+                    self._label(view, tracking)
                     self._show(view, tracking)
                     self._checkpoint(tracking)
             finally:
@@ -114,9 +114,11 @@ class Pipeline:
         with self.clock.stage("track"):
             return self.slam.process(view)
 
-    def _label(self, tracking: Tracking) -> None:
+    def _label(self, view: View, tracking: Tracking) -> None:
+        """Label frames; a model that describes images itself is shown the keyframes' only."""
         with self.clock.stage("label"):
-            labels = self.labeller.process(tracking)
+            colour = view.frame.colour if tracking.is_keyframe else None
+            labels = self.labeller.process(tracking, colour)
         self._take(labels)
 
     def _take(self, labels: list[FrameLabel]) -> None:
@@ -142,6 +144,8 @@ class Pipeline:
     def _show(self, view: View, tracking: Tracking) -> None:
         with self.clock.stage("view"):
             self.viewer.show_frame(view.frame, tracking)
+            if tracking.is_keyframe:
+                self.recorder.add_thumbnail(view.frame)
             for event in _events(tracking):
                 self.viewer.log(tracking.index, event)
             if self._is_map_due(tracking):

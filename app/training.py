@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import cast, get_args
 
 from app.config import AppSettings
 from app.console import Terminal
+from app.errors import AppError
 from datasets.errors import DatasetError
 from datasets.open import guess_layout, open_sequence
 from semantics.examples import Example, folder_examples, sequence_examples
 from semantics.model import PlaceModel
 from semantics.model_io import save_model
-from semantics.training import train
+from semantics.training import Preset, preset, train
 
 
 def labelled_examples(root: Path) -> list[Example]:
@@ -30,6 +32,26 @@ def labelled_examples(root: Path) -> list[Example]:
     if layout is None:
         return folder_examples(root)
     return sequence_examples(open_sequence(root, layout))
+
+
+def with_preset(settings: AppSettings, name: str | None) -> AppSettings:
+    """Return settings with the training and the features of a named preset, if there is a name.
+
+    Raises
+    ------
+    AppError
+        There is no preset of that name.
+    """
+    if name is None:
+        return settings
+    if name not in get_args(Preset):
+        raise AppError(
+            "no such preset", where="--preset", expected=" or ".join(get_args(Preset)), got=name
+        )
+    training, features = preset(cast(Preset, name))
+    slam = settings.slam.model_copy(update={"features": features})
+    semantics = settings.semantics.model_copy(update={"training": training})
+    return settings.model_copy(update={"slam": slam, "semantics": semantics})
 
 
 def train_model(

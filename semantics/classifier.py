@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from semantics.estimator import Estimator
 from semantics.folds import assign_folds
-from semantics.platt import fit_sigmoid, sigmoid
+from semantics.platt import fit_sigmoid, fit_softmax, sigmoid, softmax
 
 
 class PlaceClassifier(Estimator):
@@ -35,7 +35,12 @@ class PlaceClassifier(Estimator):
     coef_, intercept_ : (K, D) and (K,) float64
         The decision of class k is ``X @ coef_[k] + intercept_[k]``.
     sigmoid_ : (K, 2) float64
-        Slope and offset of each class's sigmoid (Platt, 1999).
+        Slope and offset of each class's sigmoid (Platt, 1999): does it fit this class at all?
+    scaling_ : (K + 1,) float64
+        Slope of all margins and offset of each class, under the softmax that makes them
+        probabilities: which class fits best?
+    familiarity_ : (N,) float64
+        `familiarity` of each sample when its fold was left out; NaN where it never was.
     cross_validated_accuracy_ : float
         Share of samples that were right when their fold was left out; NaN if a class has a single
         sample.
@@ -58,12 +63,14 @@ class PlaceClassifier(Estimator):
         coef: NDArray[np.float64],
         intercept: NDArray[np.float64],
         sigmoids: NDArray[np.float64],
+        scaling: NDArray[np.float64] | None = None,
     ) -> Self:
         """Return a fitted classifier from stored arrays (see the attributes)."""
         classifier = cls()
         classifier.classes_ = np.array(classes)
         classifier.coef_, classifier.intercept_ = coef, intercept
         classifier.sigmoid_ = sigmoids
+        classifier.scaling_ = _plain_scaling(len(classes)) if scaling is None else scaling
         classifier.n_features_in_ = coef.shape[1]
         return classifier
 
@@ -85,11 +92,16 @@ class PlaceClassifier(Estimator):
             raise ValueError(f"expected two classes or more, got one class: {self.classes_[0]!r}")
         n_folds = min(self.n_folds, int(np.bincount(index).min()))
         self.sigmoid_ = np.tile([1.0, 0.0], (len(self.classes_), 1))
+        self.scaling_ = _plain_scaling(len(self.classes_))
         self.cross_validated_accuracy_ = float("nan")
+        self.familiarity_ = np.full(len(matrix), np.nan)
+        axes = _axes(matrix)
+        matrix = matrix if axes is None else matrix @ axes
         if n_folds >= 2:
             folds = assign_folds(index, groups, n_folds, np.random.default_rng(self.random_state))
             self._calibrate(matrix, index, folds)
-        self.coef_, self.intercept_ = self._fit_svm(matrix, index)
+        coef, self.intercept_ = self._fit_svm(matrix, index)
+        self.coef_ = coef if axes is None else coef @ axes.T
         return self
 
     def decision_function(self, X: ArrayLike) -> NDArray[np.float64]:
@@ -103,13 +115,20 @@ class PlaceClassifier(Estimator):
         return np.asarray(self.classes_[decisions.argmax(axis=1)])
 
     def predict_proba(self, X: ArrayLike) -> NDArray[np.float64]:
-        """Return the probability (N, K) of each class: each one's sigmoid, made to sum to one."""
+        """Return the probability (N, K) of each class."""
         return self.probabilities(self._decisions(X))
 
     def probabilities(self, decisions: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return probabilities (N, K) from margins (N, K)."""
-        positive = sigmoid(decisions * self.sigmoid_[:, 0] + self.sigmoid_[:, 1])
-        return np.asarray(positive / np.maximum(positive.sum(axis=1, keepdims=True), 1e-12))
+        return softmax(decisions * self.scaling_[0] + self.scaling_[1:])
+
+    def familiarity(self, decisions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the largest probability (N,) that a machine alone gives, from margins (N, K).
+
+        It is low where all machines say no: the image may be of none of the classes.
+        """
+        alone = sigmoid(decisions * self.sigmoid_[:, 0] + self.sigmoid_[:, 1])
+        return np.asarray(alone.max(axis=1))
 
     def score(self, X: ArrayLike, y: ArrayLike) -> float:
         """Return the share of `X` (N, D) that is predicted as `y` (N,)."""
@@ -143,10 +162,12 @@ class PlaceClassifier(Estimator):
         if not known.any():
             return
         decisions, index = decisions[known], index[known]
+        self.scaling_ = fit_softmax(decisions, index)
         self.cross_validated_accuracy_ = float(np.mean(decisions.argmax(axis=1) == index))
         self.sigmoid_ = np.array(
             [fit_sigmoid(decisions[:, k], index == k) for k in range(len(self.classes_))]
         )
+        self.familiarity_[known] = self.familiarity(decisions)
 
     def _fit_svm(
         self, X: NDArray[np.float64], index: NDArray[np.int64]
@@ -158,6 +179,23 @@ class PlaceClassifier(Estimator):
         if len(svm.classes_) == 2:
             return np.vstack([-svm.coef_, svm.coef_]), np.hstack([-svm.intercept_, svm.intercept_])
         return svm.coef_, svm.intercept_
+
+
+def _axes(X: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return axes (D, N) that span the N samples, None if there are fewer features than samples.
+
+    The machines' coefficients are sums of samples, so learning along these axes gives the same
+    machines, from N numbers a sample instead of D.
+    """
+    if X.shape[1] <= 2 * X.shape[0]:
+        return None
+    values, vectors = np.linalg.eigh(X @ X.T)
+    kept = values > values[-1] * 1e-10
+    return np.asarray(X.T @ (vectors[:, kept] / np.sqrt(values[kept])))
+
+
+def _plain_scaling(n_classes: int) -> NDArray[np.float64]:
+    return np.concatenate([[1.0], np.zeros(n_classes)])
 
 
 def _check_y(y: ArrayLike, n_samples: int) -> NDArray[Any]:

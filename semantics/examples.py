@@ -27,6 +27,12 @@ class Example:
         The kind of place.
     group : str
         What it was seen together with: the visit to the room; unique for a lone photo.
+    session : str
+        The sequence it is from; the file itself for a lone photo.
+    place : str
+        The very room (``office2``), empty if not known.
+    stamp_s : float
+        Its time in the sequence, seconds.
     read : callable
         Returns the image, (H, W, 3) uint8 RGB.
     """
@@ -35,6 +41,9 @@ class Example:
     label: str
     group: str
     read: Callable[[], NDArray[np.uint8]]
+    session: str = ""
+    place: str = ""
+    stamp_s: float = 0.0
 
 
 def folder_examples(root: Path) -> list[Example]:
@@ -49,7 +58,7 @@ def folder_examples(root: Path) -> list[Example]:
     for folder in sorted(folders):
         _refuse_level_above(folder)
     examples = [
-        Example(str(path), folder.name, str(path), partial(read_colour, path))
+        Example(str(path), folder.name, str(path), partial(read_colour, path), str(path))
         for folder in sorted(root.iterdir() if root.is_dir() else ())
         if folder.is_dir() and not folder.name.startswith(".")
         for path in sorted(folder.rglob("*"))
@@ -119,7 +128,7 @@ def _visits(sequence: sequences.Sequence) -> Iterator[Example]:
             visit, last = visit + 1, truth
         yield Example(
             f"{sequence.name}@{stamp:.3f}", truth[0], f"{sequence.root}#{visit}",
-            partial(_colour, sequence, index),
+            partial(_colour, sequence, index), str(sequence.root), truth[1], float(stamp),
         )  # fmt: skip
 
 

@@ -6,11 +6,13 @@ import logging
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from datasets.errors import DatasetError
+from semantics.dense import DenseSettings, small_grey
 from semantics.examples import Example
 from semantics.histogram import as_vectors
 from slam.features import FeatureExtractor, FeatureSettings
@@ -18,32 +20,54 @@ from slam.features import FeatureExtractor, FeatureSettings
 logger = logging.getLogger(__name__)
 
 
-def extract_descriptors(
+@dataclass(frozen=True, slots=True)
+class Described:
+    """An image as training and evaluation keep it.
+
+    Attributes
+    ----------
+    example : Example
+        Where it comes from and what it shows.
+    descriptors : (N, D) float32
+        Of its features.
+    small : (h, w) uint8 or None
+        What dense descriptors are made from, where they are asked for: much smaller than they.
+    """
+
+    example: Example
+    descriptors: NDArray[np.float32]
+    small: NDArray[np.uint8] | None = None
+
+
+def describe_images(
     examples: Sequence[Example],
-    settings: FeatureSettings,
+    features: FeatureSettings,
+    dense: DenseSettings | None,
     threads: int,
     progress: Callable[[int, int], None] | None = None,
-) -> list[NDArray[np.float32] | None]:
-    """Return the descriptors (N, D) of each image, or None for those that cannot be read.
+) -> list[Described | None]:
+    """Return each image described, or None for those that cannot be read.
 
     OpenCV lets go of the interpreter while it works, so threads do. Each has its own detector:
     OpenCV's are not made to be shared.
     """
     local = threading.local()
 
-    def describe(example: Example) -> NDArray[np.float32] | None:
+    def describe(example: Example) -> Described | None:
         if not hasattr(local, "extractor"):
-            local.extractor = FeatureExtractor(settings)
+            local.extractor = FeatureExtractor(features)
         try:
-            return as_vectors(local.extractor.extract_image(example.read()).descriptors)
+            colour = example.read()
         except DatasetError as error:
             logger.warning("left out: %s", error)
             return None
+        descriptors = as_vectors(local.extractor.extract_image(colour).descriptors)
+        return Described(example, descriptors, None if dense is None else small_grey(colour, dense))
 
     found = []
     with ThreadPoolExecutor(threads) as pool:
-        for done, descriptors in enumerate(pool.map(describe, examples), 1):
-            found.append(descriptors)
+        for done, described in enumerate(pool.map(describe, examples), 1):
+            found.append(described)
             if progress is not None:
                 progress(done, len(examples))
     return found

@@ -10,7 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semantics.classifier import PlaceClassifier
+from semantics.dense import describe_densely
 from semantics.errors import SemanticsError
+from semantics.filter import count_transitions
+from semantics.fisher import FisherEncoder
 from semantics.histogram import BagOfFeatures, Normalisation, normalise
 from semantics.labels import UNKNOWN, LabelSpace
 from slam.features import Features, FeatureSettings
@@ -30,6 +33,8 @@ class PlacePrediction:
         Of each label, by id.
     histogram : (Q,) float64
         The appearance-based histogram, of unit length (the visual memory of section 3.3).
+    familiarity : float
+        Largest probability that any single machine gives, 0 to 1: low where nothing fits.
     """
 
     label: str
@@ -37,6 +42,7 @@ class PlacePrediction:
     score: float
     probabilities: NDArray[np.float64]
     histogram: NDArray[np.float64]
+    familiarity: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +54,8 @@ class PlaceModel:
     labels : LabelSpace
         The labels it tells apart, and `unknown`.
     bag : BagOfFeatures
-        The visual words.
+        The visual words; their histogram is the visual memory, and what the classifier sees if
+        there is no `encoder`.
     classifier : PlaceClassifier
         Its classes are names of `labels`.
     features : FeatureSettings
@@ -59,6 +66,13 @@ class PlaceModel:
         With fewer, an image is of an unknown place.
     training : mapping
         What `semantics.training` reported, for people to read.
+    encoder : FisherEncoder or None
+        Describes the image itself, densely; the classifier then sees its vectors.
+    reject_below : float
+        An image that no class's machine gives this probability is of an unknown place.
+    transitions : (K, K) float64
+        Chance of each class (column) after leaving a class (row), in the order of the labels
+        without ``unknown``; even where the training data were no walks.
     """
 
     labels: LabelSpace
@@ -68,37 +82,83 @@ class PlaceModel:
     normalisation: Normalisation = "l1"
     min_features: int = 5
     training: Mapping[str, Any] = field(default_factory=dict)
+    encoder: FisherEncoder | None = None
+    reject_below: float = 0.0
+    transitions: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
 
-    def predict(self, features: Features | NDArray[Any]) -> PlacePrediction:
-        """Return the place that the features, or descriptors (N, D), of an image speak of.
+    def __post_init__(self) -> None:
+        if not self.transitions.size:
+            even = count_transitions((), self.labels.names[1:])
+            object.__setattr__(self, "transitions", even)
+
+    def can_look(
+        self, features: Features | NDArray[Any], colour: NDArray[np.uint8] | None = None
+    ) -> bool:
+        """Whether there is anything in a frame for this model to look at."""
+        return len(features) > 0 if self.encoder is None else colour is not None
+
+    def predict(
+        self, features: Features | NDArray[Any], colour: NDArray[np.uint8] | None = None
+    ) -> PlacePrediction:
+        """Return the place that an image speaks of.
+
+        Parameters
+        ----------
+        features : Features or (N, D) array
+            The features of the image, or their descriptors.
+        colour : (H, W, 3) uint8, optional
+            The image; a model with an encoder needs it.
 
         Raises
         ------
         SemanticsError
-            The descriptors are of another kind than those the model has learned.
+            The descriptors are of another kind than those the model has learned, or the image is
+            missing.
         """
         descriptors = features.descriptors if isinstance(features, Features) else features
+        counts = self._counts(descriptors)
+        memory = normalise(counts, "l2")
         probabilities = np.zeros(len(self.labels))
-        if len(descriptors) < self.min_features:
+        x = self._vector(counts, colour)
+        if x is None:
             probabilities[0] = 1.0
-            return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, np.zeros(self.bag.n_words))
+            return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory)
+        margins = self.classifier.coef_ @ x + self.classifier.intercept_
+        ids = self._ids_of_classes()
+        probabilities[ids] = self.classifier.probabilities(margins[None])[0]
+        familiarity = float(self.classifier.familiarity(margins[None])[0])
+        if familiarity < self.reject_below:
+            return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory, familiarity)
+        label_id = ids[int(margins.argmax())]
+        return PlacePrediction(
+            self.labels.names[label_id], label_id, float(probabilities[label_id]),
+            probabilities, memory, familiarity,
+        )  # fmt: skip
+
+    def _counts(self, descriptors: NDArray[Any]) -> NDArray[np.float64]:
+        if len(descriptors) < self.min_features:
+            return np.zeros(self.bag.n_words)
         try:
-            counts = self.bag.counts(descriptors)
+            return self.bag.counts(descriptors)
         except ValueError as error:
             raise SemanticsError(
                 "descriptors do not fit the place model",
                 expected=f"those of {self.features.detector}", got=str(error),
                 hint="run with the feature settings that the model was trained with",
             ) from error  # fmt: skip
-        x = normalise(counts, self.normalisation)
-        margins = self.classifier.coef_ @ x + self.classifier.intercept_
-        ids = self._ids_of_classes()
-        probabilities[ids] = self.classifier.probabilities(margins[None])[0]
-        label_id = ids[int(margins.argmax())]
-        return PlacePrediction(
-            self.labels.names[label_id], label_id, float(probabilities[label_id]),
-            probabilities, normalise(counts, "l2"),
-        )  # fmt: skip
+
+    def _vector(
+        self, counts: NDArray[np.float64], colour: NDArray[np.uint8] | None
+    ) -> NDArray[Any] | None:
+        """Return what the classifier sees of an image, None where there is too little."""
+        if self.encoder is None:
+            return normalise(counts, self.normalisation) if counts.any() else None
+        if colour is None:
+            raise SemanticsError(
+                "the place model describes images itself", expected="the image", got="features only"
+            )
+        vector = self.encoder.encode(describe_densely(colour, self.encoder.settings))
+        return vector if vector.any() else None
 
     def _ids_of_classes(self) -> list[int]:
         return [self.labels.id_of(str(name)) for name in self.classifier.classes_]

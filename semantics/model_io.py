@@ -6,23 +6,28 @@ import os
 import shutil
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from semantics.classifier import PlaceClassifier
+from semantics.dense import DenseSettings
 from semantics.documents import read_document, write_document
 from semantics.errors import SemanticsError
-from semantics.histogram import BagOfFeatures
+from semantics.fisher import ARRAYS as ENCODER_ARRAYS
+from semantics.fisher import FisherEncoder
+from semantics.histogram import BagOfFeatures, Normalisation
 from semantics.labels import LabelSpace
 from semantics.model import PlaceModel
 from semantics.neural_gas import NeuralGas
 from slam.features import FeatureSettings
 
-SCHEMA, VERSION = "roomgraph/place-model", 1
+SCHEMA, VERSION = "roomgraph/place-model", 2
 DOCUMENT, ARRAYS = "model.json", "arrays.npz"
+# Of the encoder's arrays, which lie beside the others.
+PREFIX = "dense_"
 
 
 def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
@@ -40,13 +45,7 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
     temporary.mkdir()
     try:
         write_document(temporary / DOCUMENT, SCHEMA, VERSION, _content(model))
-        np.savez_compressed(
-            temporary / ARRAYS,
-            prototypes=model.bag.vocabulary.prototypes_,
-            coef=model.classifier.coef_,
-            intercept=model.classifier.intercept_,
-            sigmoid=model.classifier.sigmoid_,
-        )
+        np.savez_compressed(temporary / ARRAYS, allow_pickle=False, **_arrays(model))
         if path.exists():
             shutil.rmtree(path)
         temporary.rename(path)
@@ -87,42 +86,79 @@ def _content(model: PlaceModel) -> dict[str, Any]:
         "normalisation": model.normalisation,
         "min_features": model.min_features,
         "training": {k: None if v != v else v for k, v in model.training.items()},
+        "dense": None if model.encoder is None else model.encoder.settings.model_dump(),
+        "reject_below": model.reject_below,
     }
+
+
+def _arrays(model: PlaceModel) -> dict[str, NDArray[Any]]:
+    arrays = {
+        "prototypes": model.bag.vocabulary.prototypes_,
+        "coef": model.classifier.coef_,
+        "intercept": model.classifier.intercept_,
+        "sigmoid": model.classifier.sigmoid_,
+        "scaling": model.classifier.scaling_,
+        "transitions": model.transitions,
+    }
+    if model.encoder is not None:
+        arrays |= {PREFIX + name: array for name, array in model.encoder.arrays.items()}
+    return arrays
 
 
 def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceModel:
-    classes, prototypes, coef = content["classes"], arrays["prototypes"], arrays["coef"]
-    expected = {
-        "prototypes": (len(prototypes), prototypes.shape[-1]),
-        "coef": (len(classes), len(prototypes)),
-        "intercept": (len(classes),),
-        "sigmoid": (len(classes), 2),
-    }
-    for name, shape in expected.items():
-        if arrays[name].shape != shape or not np.isfinite(arrays[name]).all():
-            raise ValueError(f"{name} of shape {arrays[name].shape}, expected finite {shape}")
-    if content["normalisation"] not in ("l1", "l2", "hellinger"):
-        raise ValueError(f"normalisation {content['normalisation']!r}")
+    classes, prototypes = content["classes"], arrays["prototypes"]
+    encoder = _encoder(content, arrays)
     labels = LabelSpace(
         tuple(content["labels"]), tuple((r, g, b) for r, g, b in content["colours"])
     )
-    if not set(classes) <= set(labels.names):
-        raise ValueError("classes that are no labels")
+    _check_shapes(arrays, len(classes), len(prototypes) if encoder is None else encoder.length)
+    if content["normalisation"] not in get_args(Normalisation):
+        raise ValueError(f"normalisation {content['normalisation']!r}")
+    if set(classes) != set(labels.names[1:]):
+        raise ValueError("classes that are not the labels")
     return PlaceModel(
         labels,
         BagOfFeatures(NeuralGas.from_prototypes(prototypes)),
-        PlaceClassifier.from_arrays(classes, coef, arrays["intercept"], arrays["sigmoid"]),
+        PlaceClassifier.from_arrays(
+            classes, arrays["coef"], arrays["intercept"], arrays["sigmoid"], arrays["scaling"]
+        ),
         FeatureSettings(**content["features"]),
         content["normalisation"],
         int(content["min_features"]),
         content["training"],
+        encoder,
+        float(content["reject_below"]),
+        arrays["transitions"],
     )
+
+
+def _encoder(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> FisherEncoder | None:
+    if content["dense"] is None:
+        return None
+    return FisherEncoder(
+        DenseSettings(**content["dense"]), {name: arrays[PREFIX + name] for name in ENCODER_ARRAYS}
+    )
+
+
+def _check_shapes(arrays: dict[str, NDArray[Any]], n_classes: int, length: int) -> None:
+    prototypes = arrays["prototypes"]
+    expected = {
+        "prototypes": (len(prototypes), prototypes.shape[-1]),
+        "coef": (n_classes, length),
+        "intercept": (n_classes,),
+        "sigmoid": (n_classes, 2),
+        "scaling": (n_classes + 1,),
+        "transitions": (n_classes, n_classes),
+    }
+    for name, shape in expected.items():
+        if arrays[name].shape != shape or not np.isfinite(arrays[name]).all():
+            raise ValueError(f"{name} of shape {arrays[name].shape}, expected finite {shape}")
 
 
 def _read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return {name: arrays[name] for name in ("prototypes", "coef", "intercept", "sigmoid")}
+            return {name: arrays[name] for name in arrays.files}
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
         raise SemanticsError(
             "the model's arrays cannot be read", where=path,

@@ -19,6 +19,9 @@ def label(
         Path | None,
         typer.Option("-o", "--output", metavar="CSV", help="Table item,label,score,truth."),
     ] = None,
+    dataset: options.DatasetOption = None,
+    camera: options.CameraOption = None,
+    config: options.ConfigOption = None,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
@@ -33,6 +36,7 @@ def label(
 
       roomgraph label places my_recording
     """
+    from app.config import load_settings
     from app.console import Terminal
     from app.labelling import accuracy_table, label_items, write_labels_csv
     from app.run_folder import refuse_existing
@@ -41,8 +45,9 @@ def label(
     terminal = Terminal(quiet, verbose)
     if output is not None:
         refuse_existing(output, overwrite)
+    vote = load_settings(config).semantics.labeller
     with terminal.progress("Labelling") as advance:
-        items = label_items(load_model(model), data, advance)
+        items = label_items(load_model(model), data, advance, vote, dataset, camera)
     if output is not None:
         write_labels_csv(output, items)
         terminal.say(f"{len(items)} labels written to {output}")

@@ -20,6 +20,10 @@ def train(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="MODEL", help="Folder of the model.")
     ],
+    preset: Annotated[
+        str | None,
+        typer.Option("--preset", metavar="NAME", help="paper, as published, or best (default)."),
+    ] = None,
     config: options.ConfigOption = None,
     seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
@@ -36,13 +40,15 @@ def train(
       roomgraph train photos/ -o places
 
       roomgraph train day_walk night_walk -o places
+
+      roomgraph train photos/ -o as_published --preset paper
     """
     from app.config import load_settings
     from app.console import Terminal
-    from app.training import train_model
+    from app.training import train_model, with_preset
 
     terminal = Terminal(quiet, verbose)
-    settings = load_settings(config, {"seed": seed})
+    settings = with_preset(load_settings(config, {"seed": seed}), preset)
     with terminal.logging():
         model = train_model(data, output, settings, overwrite, terminal)
     images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())

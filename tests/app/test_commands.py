@@ -168,8 +168,8 @@ def test_interruption_keeps_what_was_done(rendered_walk, tmp_path, monkeypatch, 
 
     label = Pipeline._label
 
-    def interrupted(self, tracking):
-        label(self, tracking)
+    def interrupted(self, view, tracking):
+        label(self, view, tracking)
         if tracking.index == 20:
             raise KeyboardInterrupt
 

@@ -55,7 +55,11 @@ def test_stored_arrays_predict_the_same(overlapping):
     X, y = overlapping
     fitted = PlaceClassifier(random_state=0).fit(X, y)
     stored = PlaceClassifier.from_arrays(
-        list(fitted.classes_), fitted.coef_, fitted.intercept_, fitted.sigmoid_
+        list(fitted.classes_),
+        fitted.coef_,
+        fitted.intercept_,
+        fitted.sigmoid_,
+        fitted.scaling_,
     )
     np.testing.assert_array_equal(stored.predict_proba(X), fitted.predict_proba(X))
 

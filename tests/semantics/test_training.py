@@ -75,7 +75,7 @@ def test_learns_from_folders(folder):
     extractor = FeatureExtractor(FEATURES)
     kinds = [k for k in ("discs", "boxes", "strokes") for _ in range(10)]
     found = [
-        model.predict(extractor.extract_image(image(kind, 100 + i))).label
+        model.predict(extractor.extract_image(image(kind, 100 + i)), image(kind, 100 + i)).label
         for i, kind in enumerate(kinds)
     ]
     assert np.mean(np.array(found) == kinds) > 0.7
