@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import AppError
-from app.metrics import place_metrics, trajectory_metrics
+from app.metrics import place_metrics, topology_metrics, trajectory_metrics
 from app.run_folder import UNREAD, RunFolder
 from datasets import poses
 from datasets.files import replacing
+from datasets.floor_plan import FILE_NAME, read_floor_plan
 from datasets.places import PlaceTruth, read_places
 from datasets.trajectory import Trajectory, read_tum
 from semantics.graph_io import read_graph_json
@@ -46,6 +47,9 @@ def evaluate_run(
         rows = [row for row in folder.read_frames() if row["method"] != UNREAD]
         frames = [(float(row["timestamp"]), row["label"]) for row in rows]
         found |= place_metrics(graph, frames, rooms)
+        plan = folder.read_input().sequence / FILE_NAME
+        if places is None and plan.is_file():
+            found |= topology_metrics(graph, read_floor_plan(plan), found["rooms_matched"])
     if not found:
         raise AppError(
             "no ground truth to compare with", where=folder.root,

@@ -66,9 +66,11 @@ def save_floor_plan(figure: Figure, png: Path, svg: Path) -> None:
     """Write a floor plan as PNG and SVG; the same plan gives the same bytes."""
     with replacing(png) as temporary:
         figure.savefig(temporary, dpi=200)
-    with rc_context({"svg.hashsalt": "roomgraph", "svg.fonttype": "none"}):
-        with replacing(svg) as temporary:
-            figure.savefig(temporary, metadata={"Date": None})
+    with (
+        rc_context({"svg.hashsalt": "roomgraph", "svg.fonttype": "none"}),
+        replacing(svg) as temporary,
+    ):
+        figure.savefig(temporary, metadata={"Date": None})
 
 
 def _window(graph: SemanticGraph, grid: OccupancyGrid) -> FloatArray:
@@ -139,9 +141,9 @@ def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> No
         name = extent.name.replace("_", " ")
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
         size = float(np.clip(width / (0.62 * max(len(name), 6)), _SMALL, _LARGE))
+        x, y = _middle(extent.polygon_map, extent.centre_map)
         axes.text(
-            *_middle(extent.polygon_map, extent.centre_map),
-            f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
+            x, y, f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
             color=_INK, fontweight="bold", linespacing=1.25, path_effects=halo, zorder=6,
         )  # fmt: skip
 

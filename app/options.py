@@ -62,9 +62,15 @@ VisualizeOption = Annotated[
 SaveRrdOption = Annotated[
     bool, typer.Option("--save-rrd/--no-rrd", help="Write recording.rrd for Rerun.")
 ]
+ReportOption = Annotated[
+    bool, typer.Option("--report/--no-report", help="Write report.html and the floor plan.")
+]
 SeedOption = Annotated[
     int | None,
     typer.Option("--seed", metavar="N", min=0, help="Of all random choices.", show_default="0"),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print JSON, and nothing else, on standard output.")
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
 VerboseOption = Annotated[bool, typer.Option("--verbose", help="Say what is going on inside.")]

@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from app.cloud_io import write_cloud
 from app.occupancy_io import write_occupancy
 from app.run_folder import FRAME_COLUMNS, UNREAD, RunFolder
+from app.thumbnails import ThumbnailWriter
 from datasets.files import write_text
+from datasets.frame import Frame
 from datasets.trajectory import Trajectory, write_tum
 from semantics.graph import SemanticGraph
 from semantics.graph_io import write_graph_json, write_graphml
@@ -34,6 +36,7 @@ class Recorder:
         self._file = folder.frames.open("w", newline="", encoding="utf-8")
         self._rows = csv.writer(self._file, lineterminator="\n")
         self._rows.writerow(FRAME_COLUMNS)
+        self._thumbnails = ThumbnailWriter(folder.thumbnails)
 
     def add_frame(self, label: FrameLabel) -> None:
         """Write a frame's row."""
@@ -43,6 +46,10 @@ class Recorder:
             _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
         ))  # fmt: skip
         self._file.flush()
+
+    def add_thumbnail(self, frame: Frame) -> None:
+        """Keep a small picture of a keyframe."""
+        self._thumbnails.add(frame.index, frame.colour)
 
     def add_unread(self, stamps_s: NDArray[np.float64]) -> None:
         """Write rows for frames that the run did not get to."""
@@ -93,6 +100,7 @@ class Recorder:
     def close(self) -> None:
         """Close the open files."""
         self._file.close()
+        self._thumbnails.close()
 
 
 def _keyframe_of(tracking: Tracking) -> int | str:

@@ -12,6 +12,7 @@ from typing import Any
 
 from app.errors import AppError
 from app.input import InputOptions, read_input
+from datasets.camera import Camera
 from datasets.trajectory import Trajectory, read_tum
 
 # Only a folder that holds all of these is a run, and may be overwritten.
@@ -83,6 +84,26 @@ class RunFolder:
         return self.root / "metrics.json"
 
     @property
+    def thumbnails(self) -> Path:
+        """Small pictures of the keyframes."""
+        return self.root / "thumbnails.zip"
+
+    @property
+    def floor_plan_png(self) -> Path:
+        """The floor plan as a picture."""
+        return self.root / "floorplan.png"
+
+    @property
+    def floor_plan_svg(self) -> Path:
+        """The floor plan as a drawing."""
+        return self.root / "floorplan.svg"
+
+    @property
+    def report(self) -> Path:
+        """The page that shows what a run found."""
+        return self.root / "report.html"
+
+    @property
     def config(self) -> Path:
         """Resolved settings."""
         return self.root / "config.toml"
@@ -105,7 +126,7 @@ class RunFolder:
     def read_metrics(self) -> dict[str, Any]:
         """Return the run's figures."""
         try:
-            values: dict[str, Any] = json.loads(self._existing(self.metrics).read_text("utf-8"))
+            values: dict[str, Any] = json.loads(self.existing(self.metrics).read_text("utf-8"))
         except ValueError as error:
             raise AppError(
                 "figures of the run cannot be read", where=self.metrics, got=str(error)
@@ -118,18 +139,30 @@ class RunFolder:
 
     def read_input(self) -> InputOptions:
         """Return how the run's sequence was opened."""
-        return read_input(self._existing(self.input))
+        return read_input(self.existing(self.input))
+
+    def read_camera(self) -> Camera | None:
+        """Return the camera of the run's sequence, as it was opened; None if that is gone."""
+        source = self.read_input()
+        return source.open().camera if source.sequence.is_dir() else None
 
     def read_trajectory(self) -> Trajectory:
         """Return the poses of the tracked frames."""
-        return read_tum(self._existing(self.trajectory))
+        return read_tum(self.existing(self.trajectory))
 
     def read_frames(self) -> list[dict[str, str]]:
         """Return the rows of frames.csv."""
-        with self._existing(self.frames).open(newline="", encoding="utf-8") as file:
+        with self.existing(self.frames).open(newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
-    def _existing(self, path: Path) -> Path:
+    def existing(self, path: Path) -> Path:
+        """Return a product's path.
+
+        Raises
+        ------
+        AppError
+            It is not there.
+        """
         if not path.exists():
             raise AppError(
                 "not a run's folder, or the run did not end", where=self.root,

@@ -24,10 +24,11 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Showing:
-    """How a run is shown: live in Rerun, recorded for it, both or neither."""
+    """How a run is shown: live in Rerun, recorded for it, and as a report."""
 
     live: bool = False
     save: bool = True
+    report: bool = True
 
 
 def map_sequence(
@@ -65,6 +66,10 @@ def map_sequence(
                 warnings=map(str, findings),
             )  # fmt: skip
             metrics = pipeline.run()
+        if showing.report and metrics["frames_tracked"]:
+            from app.report_page import write_report
+
+            write_report(folder, sequence)
         logger.info("finished, see %s", folder.metrics.name)
     if not metrics["frames_tracked"]:
         raise AppError(

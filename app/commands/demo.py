@@ -9,6 +9,7 @@ def demo(
     output: options.OutputOption = None,
     visualize: options.VisualizeOption = False,
     save_rrd: options.SaveRrdOption = True,
+    report: options.ReportOption = True,
     seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
@@ -33,6 +34,9 @@ def demo(
 
     terminal = Terminal(quiet, verbose)
     settings = load_settings(None, {"seed": seed})
-    folder, metrics = run_demo(settings, output, overwrite, Showing(visualize, save_rrd), terminal)
+    showing = Showing(visualize, save_rrd, report)
+    folder, metrics = run_demo(settings, output, overwrite, showing, terminal)
     terminal.say(summary(metrics))
+    if report:
+        terminal.say(f"Report: {folder.report}")
     terminal.say(f"Look at it with: roomgraph view {folder.root}")

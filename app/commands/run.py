@@ -19,6 +19,7 @@ def run(
     max_depth: options.MaxDepthOption = None,
     visualize: options.VisualizeOption = False,
     save_rrd: options.SaveRrdOption = True,
+    report: options.ReportOption = True,
     seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
@@ -54,8 +55,10 @@ def run(
     opened = source.open()
     places = load_model(model) if model is not None else None
     folder, metrics = map_sequence(
-        opened, settings, places, output, overwrite, Showing(visualize, save_rrd), terminal,
+        opened, settings, places, output, overwrite, Showing(visualize, save_rrd, report), terminal,
         source,
     )  # fmt: skip
     terminal.say(summary(metrics))
+    if report:
+        terminal.say(f"Report: {folder.report}")
     terminal.say(f"Written to {folder.root}; look at it with: roomgraph view {folder.root}")
