@@ -14,6 +14,9 @@ from app.commands.demo import demo
 from app.commands.eval import evaluate
 from app.commands.export import export
 from app.commands.label import label
+from app.commands.locate import locate
+from app.commands.places import places
+from app.commands.route import route
 from app.commands.run import run
 from app.commands.synth import synth
 from app.commands.train import train
@@ -72,6 +75,21 @@ def _guarded(command: Callable[..., None]) -> Callable[..., None]:
     return run_command
 
 
-for _command in (demo, run, train, label, view, export, synth, bench, config):
-    cli.command()(_guarded(_command))
+for _command in (
+    demo,
+    run,
+    train,
+    label,
+    view,
+    export,
+    places,
+    route,
+    locate,
+    synth,
+    bench,
+    config,
+):
+    # A negative coordinate is no flag.
+    context = {"ignore_unknown_options": True} if _command is route else None
+    cli.command(context_settings=context)(_guarded(_command))
 cli.command("eval")(_guarded(evaluate))

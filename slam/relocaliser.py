@@ -23,6 +23,7 @@ class RelocaliserSettings(Settings):
 
     candidates: int = Field(10, ge=1, le=100, description="keyframes tried, the most alike first")
     neighbours: int = Field(3, ge=0, le=50, description="keyframes joined to a candidate")
+    min_inliers: int = Field(30, ge=6, description="fewer agreeing matches are no pose")
     enough_inliers: int = Field(
         120, ge=6, description="with so many agreeing matches no other candidate is tried"
     )
@@ -96,6 +97,8 @@ class Relocaliser:
                 continue
             around = self._around(keyframe)
             located = self.tracker.locate(view, joined(around))
+            if located is not None and located.inliers < self.settings.min_inliers:
+                located = None
             # What is joined to a candidate that fits need not be tried again.
             tried.update(k.id for k in around if located is not None)
             found.append(_measured(keyframe, likeness, located))

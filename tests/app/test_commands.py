@@ -157,6 +157,7 @@ def test_printed_settings_are_the_defaults(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("command", ["demo", "run", "train", "label", "eval", "view", "export",
+                                     "places", "route", "locate",
                                      "synth", "config"])  # fmt: skip
 def test_help_has_examples(monkeypatch, capsys, command):
     assert roomgraph(monkeypatch, command, "--help") == 0

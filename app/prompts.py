@@ -1,0 +1,64 @@
+"""Telling where images were taken: as text, as JSON, aloud."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+
+import typer
+
+from app.errors import AppError
+from app.locating import Whereabouts
+from app.queries import Query
+from app.questions import whereabouts_json, whereabouts_text
+from app.speech import Announcer, Voice, spoken
+from semantics.graph import SemanticGraph
+from semantics.labels import UNKNOWN
+
+Answers = Iterable[tuple[Query, Whereabouts]]
+
+
+def answer(
+    graph: SemanticGraph, answers: Answers, is_walk: bool, speak: bool, as_json: bool
+) -> None:
+    """Tell the answers as they come: of a walk what changes, of images each one.
+
+    Raises
+    ------
+    AppError
+        The voice fails on the way; that it is not there is only noted.
+    """
+    voice = _voice() if speak else None
+    if as_json:
+        rows = [whereabouts_json(graph, query.name, where) for query, where in answers]
+        typer.echo(json.dumps(rows, indent=1))
+    elif is_walk:
+        _follow(answers, voice)
+    else:
+        for query, where in answers:
+            typer.echo(f"{query.name}: {whereabouts_text(graph, where)}")
+            if voice is not None and where.place != UNKNOWN:
+                voice.say(f"you are in {spoken(where.place)}")
+
+
+def _follow(answers: Answers, voice: Voice | None) -> None:
+    announcer = Announcer()
+    frames = placed = posed = 0
+    for query, where in answers:
+        frames += 1
+        placed += where.place != UNKNOWN
+        posed += where.T_world_camera is not None
+        sentence = announcer.hear(where.place, query.frame.stamp_s)
+        if sentence is not None:
+            typer.echo(f"{query.frame.stamp_s:.2f} s: {sentence} ({where.sureness:.0%} sure)")
+            if voice is not None:
+                voice.say(sentence)
+    typer.echo(f"{frames} frames: {placed} with a place, {posed} with a pose")
+
+
+def _voice() -> Voice | None:
+    try:
+        return Voice()
+    except AppError as error:
+        typer.echo(f"roomgraph: {error}", err=True)
+        return None

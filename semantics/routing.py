@@ -1,0 +1,182 @@
+"""Ways from place to place, over the topological graph."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from semantics.errors import SemanticsError
+from semantics.graph import Doorway, SemanticGraph
+
+FloatArray = NDArray[np.float64]
+
+# Without a known vertical: the first camera's axes, turned so that its up is up.
+_T_LEVEL_WORLD = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+# A change of direction below this is straight on.
+_STRAIGHT_DEG = 30.0
+_COORDINATES = re.compile(
+    r"\s*,\s*".join([r"-?\d+(?:\.\d*)?"] * 2) + r"(?:\s*,\s*-?\d+(?:\.\d*)?)?"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """The part of a route inside one place.
+
+    Attributes
+    ----------
+    place, label : str
+        Where it lies.
+    length_m : float
+        From the border (or the start) to the next border (or the goal).
+    door : Doorway or None
+        What it ends at; None at the goal, and where no doorway is known.
+    turn_deg : float or None
+        Change of direction into the next leg, left positive; None at the goal.
+    """
+
+    place: str
+    label: str
+    length_m: float
+    door: Doorway | None
+    turn_deg: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """A way along nodes of the graph, place by place."""
+
+    nodes: tuple[int, ...]
+    length_m: float
+    legs: tuple[Leg, ...]
+
+
+def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
+    """Return the nodes that a name may mean, one for each place it may mean.
+
+    Parameters
+    ----------
+    graph : SemanticGraph
+        Where to look.
+    name : str
+        A place (``office2``, ``Office 2``): its middle. A label (``office``): the middle of each
+        place of that kind. Coordinates: ``x,y`` on the floor of the map frame or ``x,y,z`` in the
+        world, metres: the node nearest to there.
+
+    Raises
+    ------
+    SemanticsError
+        Nothing is called so.
+    """
+    if not graph.nodes:
+        raise SemanticsError("no nodes to go between", expected="a graph of a tracked run")
+    if _COORDINATES.fullmatch(name.strip()):
+        return (_nearest(graph, [float(value) for value in name.split(",")]),)
+    wanted = plain(name)
+    places = [place for place in graph.places if plain(place) == wanted]
+    if not places:
+        kinds = {node.place: node.label for node in graph.nodes}
+        places = [place for place in graph.places if plain(kinds[place]) == wanted]
+    if not places:
+        known = dict.fromkeys([*graph.places, *(node.label for node in graph.nodes)])
+        raise SemanticsError(
+            "no such place", where=name, expected=", ".join(known),
+            hint="or give coordinates: x,y in the map frame, x,y,z in the world",
+        )  # fmt: skip
+    return tuple(_middle(graph, place) for place in places)
+
+
+def find_route(graph: SemanticGraph, start: str, goal: str) -> Route:
+    """Return the shortest way, in metres, from what `start` may mean to what `goal` may mean.
+
+    Raises
+    ------
+    SemanticsError
+        Start or goal is not known, or no way leads from one to the other.
+    """
+    import networkx
+
+    ways = networkx.Graph()
+    ways.add_nodes_from(node.id for node in graph.nodes)
+    for edge in graph.edges:
+        ways.add_edge(edge.source, edge.target, length=edge.length_m)
+    starts, goals = nodes_of(graph, start), nodes_of(graph, goal)
+    lengths, paths = networkx.multi_source_dijkstra(ways, set(starts), weight="length")
+    reached = [node for node in goals if node in lengths]
+    if not reached:
+        raise SemanticsError(
+            "no way is known", where=f"from {start} to {goal}",
+            expected="places joined in the graph", got="parts of the map that do not touch",
+        )  # fmt: skip
+    nearest = min(reached, key=lambda node: (lengths[node], node))
+    path = tuple(int(node) for node in paths[nearest])
+    return Route(path, float(lengths[nearest]), _legs(graph, path))
+
+
+def plain(name: str) -> str:
+    """Return a name without what people write differently: case, blanks, underscores."""
+    return re.sub(r"[\s_-]+", "", name).lower()
+
+
+def upright(graph: SemanticGraph) -> FloatArray:
+    """Return where the nodes are (N, 3) in the map frame, z up."""
+    T = _T_LEVEL_WORLD if graph.T_map_world is None else graph.T_map_world
+    return poses.transform(T, graph.positions)
+
+
+def _nearest(graph: SemanticGraph, values: list[float]) -> int:
+    positions = graph.positions if len(values) == 3 else upright(graph)[:, :2]
+    return int(np.linalg.norm(positions - values, axis=1).argmin())
+
+
+def _middle(graph: SemanticGraph, place: str) -> int:
+    """Return the node of a place that is nearest to all others of it (the medoid)."""
+    ids = np.array([node.id for node in graph.nodes if node.place == place])
+    positions = graph.positions[ids]
+    distances = np.linalg.norm(positions[:, None] - positions[None], axis=2)
+    return int(ids[distances.sum(axis=1).argmin()])
+
+
+def _legs(graph: SemanticGraph, path: tuple[int, ...]) -> tuple[Leg, ...]:
+    """Cut a way where the place changes; the border lies halfway between the two nodes."""
+    positions = upright(graph)
+    labels = {node.place: node.label for node in graph.nodes}
+    legs, length = [], 0.0
+    for i, (a, b) in enumerate(pairwise(path)):
+        step = float(np.linalg.norm(positions[b] - positions[a]))
+        here, there = graph.nodes[a].place, graph.nodes[b].place
+        if here == there:
+            length += step
+            continue
+        door = _door(graph, here, there, (positions[a] + positions[b])[:2] / 2)
+        turn = _turn_deg(positions[list(path[max(0, i - 1) : i + 3]), :2])
+        legs.append(Leg(here, labels[here], length + step / 2, door, turn))
+        length = step / 2
+    last = graph.nodes[path[-1]].place
+    return (*legs, Leg(last, labels[last], length, None, None))
+
+
+def _door(graph: SemanticGraph, here: str, there: str, border: FloatArray) -> Doorway | None:
+    """Return the doorway between two places that is nearest to where the way crosses."""
+    doors = [door for door in graph.doorways if set(door.places) == {here, there}]
+    return min(doors, key=lambda d: float(np.linalg.norm(d.position_map - border)), default=None)
+
+
+def _turn_deg(positions: FloatArray) -> float:
+    """Return the angle between the first and the last step of a way (N, 2), left positive."""
+    steps: Any = np.diff(positions, axis=0)
+    (x0, y0), (x1, y1) = steps[0], steps[-1]
+    return float(np.degrees(np.arctan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1)))
+
+
+def turning(turn_deg: float) -> str:
+    """Return a turn in words: ``left``, ``right`` or ``straight on``."""
+    if abs(turn_deg) < _STRAIGHT_DEG:
+        return "straight on"
+    return "left" if turn_deg > 0 else "right"

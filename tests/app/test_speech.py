@@ -1,0 +1,76 @@
+"""What is said, and when: the wearable's rules."""
+
+import stat
+
+import pytest
+
+from app.errors import AppError
+from app.speech import Announcer, Voice, spoken
+
+
+def _said(answers, rate_hz=8.0, **settings):
+    announcer = Announcer(**settings)
+    sentences = (
+        (i / rate_hz, announcer.hear(place, i / rate_hz)) for i, place in enumerate(answers)
+    )
+    return [(stamp, sentence) for stamp, sentence in sentences if sentence is not None]
+
+
+def test_an_answer_is_said_once_it_has_held_for_five_frames():
+    assert _said(["office2"] * 4) == []
+    assert _said(["office2"] * 5) == [(0.5, "you are in office 2")]
+    walk = ["office2"] * 10 + ["corridor1"] * 10
+    assert _said(walk)[1:] == [(1.75, "you are entering corridor 1")]
+
+
+def test_flicker_is_not_said():
+    walk = ["office2"] * 10 + ["corridor1", "corridor1", "office2", "kitchen1"] * 5
+    assert _said(walk) == [(0.5, "you are in office 2")]
+
+
+def test_frames_without_an_answer_are_passed_over():
+    assert _said(["unknown"] * 50) == []
+    walk = ["office2"] * 3 + ["unknown"] * 4 + ["office2"] * 2
+    assert _said(walk) == [(1.0, "you are in office 2")]
+
+
+def test_every_ten_seconds_it_is_said_again():
+    said = _said(["office2"] * 240)
+    assert said == [(t, "you are in office 2") for t in (0.5, 10.5, 20.5)]
+    walk = ["office2"] * 60 + ["corridor1"] * 120
+    assert [t for t, _ in _said(walk)] == [0.5, 8.0, 18.0]
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [("office2", "office 2"), ("meeting_room12", "meeting room 12"), ("corridor", "corridor")],
+)
+def test_names_as_they_are_said(place, said):
+    assert spoken(place) == said
+
+
+def test_no_voice_is_said_so(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(AppError, match="espeak-ng"):
+        Voice()
+
+
+def _program(folder, monkeypatch, script):
+    program = folder / "espeak-ng"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+
+
+def test_sentences_are_handed_to_the_program(tmp_path, monkeypatch):
+    _program(tmp_path, monkeypatch, f'echo "$@" >> {tmp_path}/said')
+    voice = Voice()
+    voice.say("you are in office 2")
+    voice.say("-- odd; name")
+    assert (tmp_path / "said").read_text() == "-- you are in office 2\n-- -- odd; name\n"
+
+
+def test_a_voice_that_fails_is_an_error(tmp_path, monkeypatch):
+    _program(tmp_path, monkeypatch, "echo no sound card >&2; exit 3")
+    with pytest.raises(AppError, match="no sound card"):
+        Voice().say("you are in office 2")
