@@ -152,7 +152,8 @@ class Fusion:
         scaled = poses.transform(T_world_keyframe, points) / self.voxel_m
         cells = np.floor(scaled)
         keys = keys_of(cells.astype(np.int32))
-        order = np.argsort(keys, kind="stable")
+        # Only numbers the voxels: the points are summed as they come, so ties may fall anyhow.
+        order = np.argsort(keys)
         sorted_keys = keys[order]
         first = np.r_[True, sorted_keys[1:] != sorted_keys[:-1]][: len(keys)]
         group = np.empty(len(keys), np.intp)
