@@ -72,24 +72,23 @@ class Connections:
         self.roots.add(apart[0])
         return True
 
-    def way_between(self, first: int, second: int, limit: float) -> float:
-        """Return the length of the shortest way along links (Dijkstra), metres.
+    def ways_from(self, keyframe: int, limit: float, goal: int | None = None) -> dict[int, float]:
+        """Return the keyframes within `limit` metres along links, and how far (Dijkstra).
 
-        Infinite if it is longer than `limit`, or if there is none.
+        With a goal, the search ends there.
         """
-        queue, best = [(0.0, first)], {first: 0.0}
-        while queue:
-            metres, keyframe = heapq.heappop(queue)
-            if keyframe == second:
-                return metres
-            if metres > best[keyframe]:
+        queue, best, done = [(0.0, keyframe)], {keyframe: 0.0}, dict[int, float]()
+        while queue and goal not in done:
+            metres, nearest = heapq.heappop(queue)
+            if nearest in done:
                 continue
-            for other, ways in self._ways[keyframe].items():
+            done[nearest] = metres
+            for other, ways in self._ways[nearest].items():
                 total = metres + min(ways)
                 if total <= limit and total < best.get(other, float("inf")):
                     best[other] = total
                     heapq.heappush(queue, (total, other))
-        return float("inf")
+        return done
 
     def _reach(self, start: int) -> set[int]:
         reached, waiting = {start}, [start]

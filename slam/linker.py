@@ -11,13 +11,19 @@ from datasets import poses
 from slam.icp import IcpSettings, align_planes
 from slam.keyframe import Keyframe
 from slam.local_map import local_map
+from slam.matching import match
+from slam.motion import Motion, estimate_motion, procrustes
 from slam.noise import SensorNoise
 from slam.pose_graph import Link
 from slam.refine import CHI2_95, RefinedMotion, refine_motion
-from slam.tracker import Located, Tracker, correspondences
+from slam.tracker import Located, Tracker, correspondences, one_a_position
 from slam.view import View
 
 FloatArray = NDArray[np.float64]
+
+# So many of each side's strongest features are compared at first, and so many must agree.
+GLANCE = 300
+GLANCE_INLIERS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,15 +61,31 @@ class Linker:
 
     def between(self, view: View, keyframe: Keyframe, other: Keyframe) -> Measured | None:
         """Return a loop link to a keyframe whose relative pose is not known, or None."""
-        located = self.tracker.locate(view, local_map([(other, np.eye(4))]))
+        coarse = self._at_a_glance(view, other)
+        if coarse is None:
+            return None
+        T_camera_other = coarse.T_camera_reference
+        located = self.tracker.track(view, local_map([(other, np.eye(4))]), T_camera_other)
         if located is None:
             return None
         return self._measure(keyframe, other, located.motion, is_loop=True)
 
+    def _at_a_glance(self, view: View, other: Keyframe) -> Motion | None:
+        """Return a motion that the strongest features agree on: most wrong candidates end here."""
+        known = np.flatnonzero(np.isfinite(other.points[:, 2]))[:GLANCE]
+        pairs = match(
+            other.features.descriptors[known], view.features.descriptors[:GLANCE],
+            self.tracker.settings.ratio,
+        )  # fmt: skip
+        pairs[:, 0] = known[pairs[:, 0]]
+        found = correspondences(other.points, view, one_a_position(pairs, view.features.pixels))
+        settings = self.tracker.motion.model_copy(update={"min_inliers": GLANCE_INLIERS})
+        return estimate_motion(
+            found, view.frame.intrinsics, self.noise, settings, self.tracker.seed
+        )
+
     def _start(self, points: FloatArray, chosen: NDArray[np.intp], located: Located) -> FloatArray:
         """Return T_camera_owner from two positions of the same points: a closed-form fit."""
-        from slam.motion import procrustes
-
         T_reference_owner = procrustes(points, located.local_map.points[chosen[:, 0]])
         return located.motion.T_camera_reference @ T_reference_owner
 

@@ -9,6 +9,7 @@ from pydantic import Field
 from datasets import poses
 from datasets.settings import Settings
 from slam.appearance import AppearanceIndex, AppearanceSettings
+from slam.consistency import BeliefSettings, LoopBelief
 from slam.keyframe import Keyframe
 from slam.linker import Linker, Measured
 from slam.pose_graph import PoseGraph
@@ -21,30 +22,24 @@ class LoopSettings(Settings):
     """When two keyframes are tried, and when they close a loop."""
 
     enabled: bool = Field(True, description="look for loops")
-    min_gap: int = Field(10, ge=1, description="keyframes that must lie between, at least")
-    candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
-    neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
+    min_way_m: float = Field(
+        2.0,
+        ge=0,
+        le=1000,
+        description="way along links in between, at least: nearer ones gain little",
+    )
+    candidates: int = Field(1, ge=0, description="tried by appearance, for each keyframe")
+    neighbours: int = Field(1, ge=0, description="tried by position, for each keyframe")
     min_similarity: float = Field(
         0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
     )
     max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
     max_angle_deg: float = Field(45.0, gt=0, le=180, description="and axes up to this apart")
     min_inliers: int = Field(30, ge=10, description="matches that must agree")
-    slack_m: float = Field(
-        0.3, gt=0, le=100, description="correction that is always believed, metres"
-    )
-    slack_deg: float = Field(
-        10.0, gt=0, le=180, description="correction that is always believed, degrees"
-    )
-    drift_share: float = Field(
-        0.03, ge=0, le=1, description="drift believed, as a share of the way in between"
-    )
-    drift_deg_per_m: float = Field(
-        0.5, ge=0, le=90, description="rotation believed for each metre in between, degrees"
-    )
     min_agreement: float = Field(
         0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
     )
+    belief: BeliefSettings = BeliefSettings()
 
 
 class LoopCloser:
@@ -55,6 +50,7 @@ class LoopCloser:
     ) -> None:
         self.settings, self.linker = settings, linker
         self.index = AppearanceIndex(appearance)
+        self.belief = LoopBelief(settings.belief)
 
     def close(
         self,
@@ -64,7 +60,10 @@ class LoopCloser:
         graph: PoseGraph,
         known: set[int],
     ) -> list[Measured]:
-        """Return the loop links of a new keyframe, already in the graph, and index it.
+        """Return the loop links to take, now that a keyframe is in the graph, and index it.
+
+        A loop that others confirm later is returned with these, so not all need be the new
+        keyframe's.
 
         Parameters
         ----------
@@ -72,45 +71,30 @@ class LoopCloser:
             Keyframes that it is linked to anyway; they close no loop.
         """
         words = self.index.words_of(keyframe.features.descriptors)
-        measured: list[Measured] = []
+        taken: list[Measured] = []
         if self.settings.enabled:
+            known = known | graph.around(keyframe.id, self.settings.min_way_m)
             tried = self._alike(words, keyframe.id, known)
             tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
             for candidate in tried:
-                link = self.linker.between(view, keyframe, keyframes[candidate])
-                if link is not None and self._is_sound(link, view, keyframes, graph):
-                    measured.append(link)
+                measured = self.linker.between(view, keyframe, keyframes[candidate])
+                if measured is not None and self._is_sound(measured, view, keyframes[candidate]):
+                    taken = self.belief.admit(measured, graph)
+                    break
         self.index.add(keyframe.id, words)
-        return measured
+        return taken
 
     def alike(self, view: View, count: int) -> list[int]:
         """Return the keyframes that look most like a view, for relocalisation."""
         words = self.index.words_of(view.features.descriptors)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
-    def _is_sound(
-        self, measured: Measured, view: View, keyframes: dict[int, Keyframe], graph: PoseGraph
-    ) -> bool:
-        """Whether a loop rests on enough matches, on depth too, and corrects no more than drift.
-
-        Look-alike places (the doors of a corridor, its two ends) match well but lie elsewhere:
-        the correction they ask for is larger than the way in between can have caused.
-        """
+    def _is_sound(self, measured: Measured, view: View, other: Keyframe) -> bool:
+        """Whether a loop rests on enough matches, and on depth too."""
         if measured.inliers < self.settings.min_inliers:
             return False
-        link = measured.link
-        way = graph.way_between(link.first, link.second)
-        believed = poses.inverse(graph[link.first]) @ graph[link.second]
-        correction = poses.inverse(believed) @ link.T_first_second
-        metres = float(np.linalg.norm(correction[:3, 3]))
-        degrees = float(np.degrees(poses.rotation_angle(correction)))
-        if metres > self.settings.slack_m + self.settings.drift_share * way:
-            return False
-        if degrees > self.settings.slack_deg + self.settings.drift_deg_per_m * way:
-            return False
-        T_view_other = poses.inverse(link.T_first_second)
-        cloud = keyframes[link.first].cloud
-        return depth_agreement(cloud, T_view_other, view) >= self.settings.min_agreement
+        T_view_other = poses.inverse(measured.link.T_first_second)
+        return depth_agreement(other.cloud, T_view_other, view) >= self.settings.min_agreement
 
     def _alike(self, words: NDArray[np.intp], keyframe: int, known: set[int]) -> list[int]:
         ranked = self.index.rank(words, before=keyframe)
@@ -118,26 +102,21 @@ class LoopCloser:
         enough = self.settings.min_similarity * likeness.get(keyframe - 1, 0.0)
         return [
             other
-            for other, score in ranked
-            if score > enough and keyframe - other > self.settings.min_gap and other not in known
+            for other, score in ranked[: self.settings.candidates + len(known)]
+            if score > enough and other not in known
         ][: self.settings.candidates]
 
     def _nearby(self, keyframe: int, graph: PoseGraph, known: set[int]) -> list[int]:
         """Return old keyframes that should see the same by their pose, the nearest first."""
-        others = [
-            other
-            for other in graph.poses
-            if keyframe - other > self.settings.min_gap and other not in known
-        ]
-        if not others:
-            return []
-        T = poses.inverse(graph[keyframe]) @ np.array([graph[other] for other in others])
+        others, T_world_other = graph.stacked()
+        T = poses.inverse(graph[keyframe]) @ T_world_other
         distance = np.linalg.norm(T[:, :3, 3], axis=1)
         # How far apart the optical axes point.
         angle = np.degrees(np.arccos(np.clip(T[:, 2, 2], -1, 1)))
         near = (distance < self.settings.max_distance_m) & (angle < self.settings.max_angle_deg)
         order = np.argsort(distance + angle / 45.0, kind="stable")
-        return [others[i] for i in order if near[i]][: self.settings.neighbours]
+        ordered = (int(others[i]) for i in order if near[i])
+        return [k for k in ordered if k not in known and k < keyframe][: self.settings.neighbours]
 
 
 def depth_agreement(cloud: NDArray[np.float32], T_view_cloud: FloatArray, view: View) -> float:

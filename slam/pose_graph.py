@@ -45,8 +45,6 @@ class PoseGraph:
         self.rejected: list[Link] = []
         self._ids: list[int] = []
         self._T: FloatArray = np.empty((0, 4, 4))
-        # The way so far, and the keyframe with which tracking began.
-        self._way: list[tuple[int, float]] = []
         self._connections = Connections()
         self._solver = Solver(settings)
         self._numbers: list[int] = []
@@ -83,17 +81,13 @@ class PoseGraph:
         self._row(keyframe)
         return self._connections.component_of(keyframe)
 
-    def way_between(self, first: int, second: int) -> float:
-        """Return the length of the way from one keyframe to the other, as tracked, metres.
-
-        Infinite if tracking was lost in between.
-        """
-        (begun, way), (begun_too, way_too) = (self._way[self._row(k)] for k in (first, second))
-        return abs(way_too - way) if begun == begun_too else float("inf")
-
     def linked_way(self, first: int, second: int, limit: float) -> float:
         """Return the length of the shortest way along links, infinite if beyond `limit` metres."""
-        return self._connections.way_between(first, second, limit)
+        return self._connections.ways_from(first, limit, second).get(second, float("inf"))
+
+    def around(self, keyframe: int, metres: float) -> set[int]:
+        """Return the keyframes no further than so many metres along links."""
+        return set(self._connections.ways_from(keyframe, metres))
 
     def add_keyframe(
         self, keyframe: int, T_world_keyframe: FloatArray, starts_component: bool = False
@@ -116,12 +110,6 @@ class PoseGraph:
             what = "is in the graph already" if keyframe in self else "has too small an id"
             raise SlamError(f"keyframe {what}", where=f"keyframe {keyframe}")
         starts = starts_component or not self._ids
-        if starts:
-            self._way.append((keyframe, 0.0))
-        else:
-            begun, way = self._way[-1]
-            step = float(np.linalg.norm(T_world_keyframe[:3, 3] - self._T[-1, :3, 3]))
-            self._way.append((begun, way + step))
         self._ids.append(keyframe)
         self._T = np.concatenate([self._T, T_world_keyframe[None]])
         self._connections.add(keyframe, is_root=starts)

@@ -116,7 +116,10 @@ def test_link_between_two_sub_maps_moves_the_younger(rng, ends):
     graph = _two_parts(ring, 6, rng)
     assert graph.components == 2
     assert [graph.component_of(i) for i in (0, 5, 6, 11)] == [0, 0, 6, 6]
-    assert graph.way_between(0, 5) < 6 < graph.way_between(5, 6) == np.inf
+    side = np.linalg.norm(ring[1][:3, 3] - ring[0][:3, 3])
+    assert graph.linked_way(0, 5, 9.0) == pytest.approx(5 * side)
+    assert graph.linked_way(0, 5, 2.0) == graph.linked_way(5, 6, 9.0) == np.inf
+    assert graph.around(1, 1.5 * side) == {0, 1, 2}
     assert motion_error(graph[8], ring[8])[0] > 1
     graph.add_link(_link(ring, *ends, is_loop=True))
     graph.optimise()
