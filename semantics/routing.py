@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,8 +135,12 @@ def _nearest(graph: SemanticGraph, values: list[float]) -> int:
 
 
 def _middle(graph: SemanticGraph, place: str) -> int:
-    """Return the node of a place that is nearest to all others of it (the medoid)."""
+    """Return the node nearest to a place's centre; without one, to all its nodes (the medoid)."""
     ids = np.array([node.id for node in graph.nodes if node.place == place])
+    for extent in graph.extents:
+        if extent.name == place:
+            gaps = upright(graph)[ids, :2] - extent.centre_map
+            return int(ids[np.linalg.norm(gaps, axis=1).argmin()])
     positions = graph.positions[ids]
     distances = np.linalg.norm(positions[:, None] - positions[None], axis=2)
     return int(ids[distances.sum(axis=1).argmin()])
@@ -155,7 +158,7 @@ def _legs(graph: SemanticGraph, path: tuple[int, ...]) -> tuple[Leg, ...]:
             length += step
             continue
         door = _door(graph, here, there, (positions[a] + positions[b])[:2] / 2)
-        turn = _turn_deg(positions[list(path[max(0, i - 1) : i + 3]), :2])
+        turn = _turn_deg(positions[list(path), :2], i)
         legs.append(Leg(here, labels[here], length + step / 2, door, turn))
         length = step / 2
     last = graph.nodes[path[-1]].place
@@ -168,10 +171,15 @@ def _door(graph: SemanticGraph, here: str, there: str, border: FloatArray) -> Do
     return min(doors, key=lambda d: float(np.linalg.norm(d.position_map - border)), default=None)
 
 
-def _turn_deg(positions: FloatArray) -> float:
-    """Return the angle between the first and the last step of a way (N, 2), left positive."""
-    steps: Any = np.diff(positions, axis=0)
-    (x0, y0), (x1, y1) = steps[0], steps[-1]
+def _turn_deg(positions: FloatArray, border: int) -> float:
+    """Return how a way (N, 2) turns between its nodes `border` and the next, left positive.
+
+    Compared are the directions over two nodes before and after; at the ends, over the border.
+    """
+    here, there = positions[border], positions[border + 1]
+    before = here - positions[max(0, border - 2)] if border else there - here
+    after = positions[min(border + 3, len(positions) - 1)] - there
+    (x0, y0), (x1, y1) = before, after if after.any() else there - here
     return float(np.degrees(np.arctan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1)))
 
 
