@@ -43,3 +43,17 @@ def associate(
             taken_second.add(j)
             chosen.append((i, j))
     return np.array(sorted(chosen), dtype=np.int64).reshape(-1, 2)
+
+
+def typical_offset(first_s: NDArray[np.float64], second_s: NDArray[np.float64]) -> float:
+    """Return by how many seconds the stamps `second_s` (M,) lie after `first_s` (N,), typically.
+
+    Recordings that overlap are compared by nearest stamps, others (of clocks with different
+    beginnings) by their beginnings.
+    """
+    if second_s[0] > first_s[-1] or second_s[-1] < first_s[0]:
+        return float(second_s[0] - first_s[0])
+    after = np.clip(np.searchsorted(second_s, first_s), 0, len(second_s) - 1)
+    gaps = np.column_stack([second_s[np.maximum(after - 1, 0)], second_s[after]]) - first_s[:, None]
+    nearest = np.abs(gaps).argmin(axis=1)
+    return float(np.median(gaps[np.arange(len(gaps)), nearest]))

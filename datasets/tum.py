@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.association import MAX_DIFFERENCE_S, associate
+from datasets.association import MAX_DIFFERENCE_S, associate, typical_offset
 from datasets.camera import Camera, read_camera, tum_camera
 from datasets.errors import DatasetError
 from datasets.images import read_colour
@@ -56,6 +56,8 @@ def _associate(root: Path) -> tuple[NDArray[np.float64], list[Path], list[Path],
             "no colour image has a depth image at its time", where=root,
             expected=f"time stamps in rgb.txt and depth.txt within {MAX_DIFFERENCE_S} s",
             got=f"{len(colour)} colour and {len(depth)} depth images, none that near",
+            hint=f"the depth's stamps are {typical_offset(colour_s, depth_s):+.4g} s off: "
+            "take that from those in depth.txt",
         )  # fmt: skip
     notes = [f"{len(pairs)} colour images with depth within {MAX_DIFFERENCE_S} s"]
     unpaired = len(colour) - len(pairs), len(depth) - len(pairs)

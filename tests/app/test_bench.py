@@ -112,3 +112,8 @@ def test_bench_tells_what_cannot_be_opened_in_one_line(tmp_path, monkeypatch, ca
     said = capfd.readouterr().err
     assert said.startswith("roomgraph: no such folder")
     assert said.count("\n") == 1
+
+
+def test_help_has_examples(monkeypatch, capsys):
+    assert roomgraph(monkeypatch, "bench", "--help") == 0
+    assert "roomgraph bench" in capsys.readouterr().out.split("Examples")[1]

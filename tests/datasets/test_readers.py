@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from datasets.association import associate
+from datasets.association import associate, typical_offset
 from datasets.camera import Intrinsics, write_camera
 from datasets.errors import DatasetError
 from datasets.images import read_colour, read_depth, undistort
@@ -124,6 +124,15 @@ def test_association_is_one_to_one_nearest_first():
     pairs = associate(np.array([0.0, 0.015, 1.0]), np.array([0.01, 0.5, 1.019, 1.02]))
     assert pairs.tolist() == [[1, 0], [2, 2]]
     assert associate(np.array([0.0]), np.array([0.02])).shape == (0, 2)
+
+
+def test_clocks_that_differ_are_told_by_how_much(tum):
+    stamps = np.arange(5) / 5
+    assert np.isclose(typical_offset(stamps, stamps + 0.07), 0.07)
+    assert np.isclose(typical_offset(stamps, stamps - 1000), -1000)
+    (tum / "depth.txt").write_text("\n".join(f"{510 + i / 30:.4f} depth/{i}.png" for i in range(5)))
+    with pytest.raises(DatasetError, match=r"\+500 s off"):
+        open_sequence(tum)
 
 
 def test_sixteen_bit_invalid_value_is_no_reading(tmp_path):
