@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections import defaultdict
 from typing import Any
 
@@ -34,7 +35,10 @@ class AppearanceIndex:
     def __init__(self, settings: AppearanceSettings) -> None:
         self.settings = settings
         self._words: NDArray[Any] = np.empty((0, 0))
-        self._keyframes_of: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
+        # By word: the keyframes that hold it, and its weight in each.
+        self._holders: defaultdict[int, tuple[array[int], array[float]]] = defaultdict(
+            lambda: (array("q"), array("d"))
+        )
         self._keyframes = 0
 
     def words_of(self, descriptors: NDArray[Any], grow: bool = True) -> NDArray[np.intp]:
@@ -68,21 +72,25 @@ class AppearanceIndex:
         found, count = np.unique(words, return_counts=True)
         length = float(np.sqrt((count**2).sum())) or 1.0
         for word, n in zip(found.tolist(), count.tolist(), strict=True):
-            self._keyframes_of[word].append((keyframe, n / length))
+            keyframes, weights = self._holders[word]
+            keyframes.append(keyframe)
+            weights.append(n / length)
         self._keyframes += 1
 
     def rank(self, words: NDArray[np.intp], before: int) -> list[tuple[int, float]]:
         """Return the keyframes with ids below `before` and their scores, the most alike first."""
         found, count = np.unique(words, return_counts=True)
-        scores: defaultdict[int, float] = defaultdict(float)
         length = float(np.sqrt((count**2).sum())) or 1.0
+        keyframes, scores = [np.empty(0, dtype=np.int64)], [np.empty(0)]
         for word, n in zip(found.tolist(), count.tolist(), strict=True):
-            holders = self._keyframes_of.get(word, [])
-            rarity = np.log((1 + self._keyframes) / (1 + len(holders)))
-            for keyframe, weight in holders:
-                if keyframe < before:
-                    scores[keyframe] += rarity * weight * n / length
-        return sorted(scores.items(), key=lambda item: (-item[1], item[0]))
+            if word in self._holders:
+                holders, weights = (np.array(column) for column in self._holders[word])
+                rarity = np.log((1 + self._keyframes) / (1 + len(holders)))
+                keyframes.append(holders)
+                scores.append(rarity * n / length * weights)
+        total = np.bincount(np.concatenate(keyframes), np.concatenate(scores))[:before]
+        order = np.argsort(-total, kind="stable")[: np.count_nonzero(total)]
+        return list(zip(order.tolist(), total[order].tolist(), strict=True))
 
     def _limit(self, descriptors: NDArray[Any]) -> float:
         """Return the squared radius in the descriptors' own unit."""
