@@ -15,7 +15,7 @@ from semantics.labels import UNKNOWN, LabelSpace
 
 # Grey that stands out from white and from black alike.
 _GREY, _LINE, _TRUTH = "#808489", "#3d8bd4", "#d07a2d"
-_WIDTH_INCHES = 6.0
+_WIDTH_INCHES = 4.8
 
 
 def label_chart(

@@ -18,7 +18,7 @@ from slam.occupancy import FREE, OCCUPIED, OccupancyGrid
 
 FloatArray = NDArray[np.float64]
 # For a page as wide as a phone: a figure of this width with this type is legible on one.
-WIDTH_INCHES = 6.0
+WIDTH_INCHES = 5.0
 _LARGE, _SMALL = 10.0, 5.5
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
@@ -41,7 +41,7 @@ def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: Float
     """
     window = _window(graph, grid)
     size = window[:, 1] - window[:, 0]
-    height = float(np.clip(WIDTH_INCHES * size[1] / size[0], 2.0, 9.0))
+    height = float(np.clip(WIDTH_INCHES * size[1] / size[0], 1.6, 7.5))
     figure = Figure(figsize=(WIDTH_INCHES, height + 0.35), facecolor="white")
     axes = figure.add_axes((0.01, 0.01, 0.98, 0.98))
     axes.set(xlim=window[0], ylim=(window[1, 0] - 0.09 * size[0], window[1, 1]), aspect="equal")
@@ -65,7 +65,7 @@ def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: Float
 def save_floor_plan(figure: Figure, png: Path, svg: Path) -> None:
     """Write a floor plan as PNG and SVG; the same plan gives the same bytes."""
     with replacing(png) as temporary:
-        figure.savefig(temporary, dpi=200)
+        figure.savefig(temporary, dpi=220)
     with (
         rc_context({"svg.hashsalt": "roomgraph", "svg.fonttype": "none"}),
         replacing(svg) as temporary,
@@ -164,7 +164,7 @@ def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
     entries = [("o", "start"), ("—", "way walked"), ("•", "graph node")]
     text = "   ".join(f"{mark} {word}" for mark, word in entries)
     axes.text(
-        window[0, 1] - 0.02 * width_m, y, text, va="center", ha="right", fontsize=7.5, color=_INK
+        window[0, 1] - 0.02 * width_m, y, text, va="center", ha="right", fontsize=7.0, color=_INK
     )
 
 

@@ -16,6 +16,10 @@ from slam.keyframe import Keyframe
 FloatArray = NDArray[np.float64]
 
 _REFINEMENTS = 5
+# Planes whose corners are looked at: some hundred pairs.
+_LARGEST = 20
+# Walls fill heights evenly; a floor stands out from the layer above it by this factor.
+_PROMINENCE = 3.0
 
 
 class GroundSettings(Settings):
@@ -134,9 +138,9 @@ def _surfaces(keyframes: list[Keyframe], T_world_keyframe: Mapping[int, FloatArr
 
 def _vertical(surfaces: _Surfaces, held: FloatArray, settings: GroundSettings) -> FloatArray | None:
     """Return up (3,), unit length; None if no plane is level within the camera's tilt."""
-    facing = np.sign(surfaces.normals @ held)[:, None] * surfaces.normals
-    upright = facing @ held
-    candidates = facing[upright > np.cos(np.radians(settings.max_tilt_deg))]
+    directions = np.concatenate([surfaces.normals, _plumb_lines(surfaces)])
+    directions = np.where(directions @ held < 0, -1.0, 1.0)[:, None] * directions
+    candidates = directions[directions @ held > np.cos(np.radians(settings.max_tilt_deg))]
     if not len(candidates):
         return None
     near, steep = np.cos(np.radians(settings.tolerance_deg)), _sine(settings)
@@ -155,6 +159,16 @@ def _vertical(surfaces: _Surfaces, held: FloatArray, settings: GroundSettings) -
     return np.asarray(up)
 
 
+def _plumb_lines(surfaces: _Surfaces) -> FloatArray:
+    """Return the directions (N, 3) in which pairs of the largest planes meet at about a corner."""
+    largest = np.argsort(-surfaces.weights, kind="stable")[:_LARGEST]
+    normals = surfaces.normals[largest]
+    first, second = np.triu_indices(len(normals), 1)
+    lines = np.cross(normals[first], normals[second])
+    length = np.linalg.norm(lines, axis=1)
+    return lines[length > 0.5] / length[length > 0.5, None]
+
+
 def _floor(
     surfaces: _Surfaces,
     keyframes: list[Keyframe],
@@ -163,25 +177,34 @@ def _floor(
     settings: GroundSettings,
 ) -> float | None:
     """Return the floor's height along `up`, metres from the world's origin."""
-    is_level = surfaces.normals @ up > np.cos(np.radians(settings.tolerance_deg))
     camera = float(np.median([T_world_keyframe[k.id][:3, 3] @ up for k in keyframes]))
-    heights = surfaces.points @ up
-    is_level &= heights < camera - settings.min_drop_m
-    if not is_level.any():
-        return None
+    top = camera - settings.min_drop_m
     seen = _heights(keyframes, T_world_keyframe, up)
-    heights, weights = heights[is_level], surfaces.weights[is_level]
-    for height in np.sort(heights):
-        layer = np.abs(heights - height) <= settings.layer_m
-        middle = float(np.average(heights[layer], weights=weights[layer]))
-        layer = np.abs(heights - middle) <= settings.layer_m
-        middle = float(np.average(heights[layer], weights=weights[layer]))
+    is_level = surfaces.normals @ up > np.cos(np.radians(settings.tolerance_deg))
+    planes = np.sort((surfaces.points @ up)[is_level])
+    for height in [*planes, *_prominent(seen, settings.layer_m / 2)]:
+        if height > top:
+            continue
+        layer = seen[np.abs(seen - height) <= settings.layer_m / 2]
+        middle = float(np.median(layer)) if len(layer) else float(height)
         below = float(np.mean(seen < middle - settings.layer_m))
-        on = float(np.mean(np.abs(seen - middle) <= settings.layer_m))
+        on = float(np.mean(np.abs(seen - middle) <= settings.layer_m / 2))
         # A few odd points make no floor: it has to carry more than may lie below it.
-        if below <= settings.max_below and on > settings.max_below:
+        if below <= settings.max_below < on:
             return middle
     return None
+
+
+def _prominent(heights: FloatArray, layer_m: float) -> FloatArray:
+    """Return the heights, from below, at which far more is seen than in the layer above.
+
+    A floor seen only in slivers makes no plane in any view, but all of them lie at one height.
+    """
+    if not len(heights):
+        return np.empty(0)
+    count, edges = np.histogram(heights, np.arange(heights.min(), heights.max() + layer_m, layer_m))
+    above = np.append(count[2:], [0, 0])[: len(count)]
+    return np.asarray(edges[:-1][count > _PROMINENCE * np.maximum(above, 1)] + layer_m / 2)
 
 
 def _heights(
