@@ -23,13 +23,13 @@ class LoopSettings(Settings):
 
     enabled: bool = Field(True, description="look for loops")
     min_way_m: float = Field(
-        2.0,
+        0.0,
         ge=0,
         le=1000,
         description="way along links in between, at least: nearer ones gain little",
     )
-    candidates: int = Field(1, ge=0, description="tried by appearance, for each keyframe")
-    neighbours: int = Field(1, ge=0, description="tried by position, for each keyframe")
+    candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
+    neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
     min_similarity: float = Field(
         0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
     )
