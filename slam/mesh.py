@@ -156,8 +156,8 @@ def _fill(
         distance, neighbour = tree.query(places, k=NEIGHBOURS, distance_upper_bound=near)
         nearest = np.where(np.isfinite(distance[:, 0]), neighbour[:, 0], 0)
         height = np.einsum("ni,ni->n", places - points[nearest], normals[nearest])
-        # Beside the nearest point by more than a voxel, a border is overstepped.
-        known = distance[:, 0] ** 2 - height**2 < (2 * near / TRUNCATION) ** 2
+        # Beside the nearest point by more than a voxel's face is wide, a border is overstepped.
+        known = distance[:, 0] ** 2 - height**2 < 2 * (2 * near / TRUNCATION) ** 2
         places, rows = places[known], rows[known]
         distance, neighbour = distance[known], neighbour[known]
         share = np.where(np.isfinite(distance), np.exp(-((2 * distance / near) ** 2)), 0.0)
