@@ -34,6 +34,21 @@ def labelled_examples(root: Path) -> list[Example]:
     return sequence_examples(open_sequence(root, layout))
 
 
+def checked_preset(name: str) -> Preset:
+    """Return a preset's name.
+
+    Raises
+    ------
+    AppError
+        There is no preset of that name.
+    """
+    if name not in get_args(Preset):
+        raise AppError(
+            "no such preset", where="--preset", expected=" or ".join(get_args(Preset)), got=name
+        )
+    return cast(Preset, name)
+
+
 def with_preset(settings: AppSettings, name: str | None) -> AppSettings:
     """Return settings with the training and the features of a named preset, if there is a name.
 
@@ -44,11 +59,7 @@ def with_preset(settings: AppSettings, name: str | None) -> AppSettings:
     """
     if name is None:
         return settings
-    if name not in get_args(Preset):
-        raise AppError(
-            "no such preset", where="--preset", expected=" or ".join(get_args(Preset)), got=name
-        )
-    training, features = preset(cast(Preset, name))
+    training, features = preset(checked_preset(name))
     slam = settings.slam.model_copy(update={"features": features})
     semantics = settings.semantics.model_copy(update={"training": training})
     return settings.model_copy(update={"slam": slam, "semantics": semantics})

@@ -133,8 +133,12 @@ class PlaceLabeller:
         """
         if self.model is None:
             return [FrameLabel(tracking, UNKNOWN, 0, 0.0, UNKNOWN, np.empty(0))]
-        if self.model.can_look(tracking.features, colour):
-            prediction = self.model.predict(tracking.features, colour)
+        looks = self.model.can_look(tracking.features, colour)
+        return self.take(tracking, self.model.predict(tracking.features, colour) if looks else None)
+
+    def take(self, tracking: Tracking, prediction: PlacePrediction | None) -> list[FrameLabel]:
+        """Take the next frame with what it alone looks like, None if it was not looked at."""
+        if prediction is not None:
             T = tracking.T_world_camera
             self._looks.append(
                 _Look(self._taken, tracking.index, None if T is None else T[:3, 3], prediction)

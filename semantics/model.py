@@ -118,12 +118,20 @@ class PlaceModel:
         descriptors = features.descriptors if isinstance(features, Features) else features
         counts = self._counts(descriptors)
         memory = normalise(counts, "l2")
+        return self.prediction(self._vector(counts, colour), memory)
+
+    def prediction(
+        self, vector: NDArray[Any] | None, memory: NDArray[np.float64]
+    ) -> PlacePrediction:
+        """Return what the machines say of what the classifier sees, None if there is nothing.
+
+        `memory` (Q,) is the histogram that is handed on.
+        """
         probabilities = np.zeros(len(self.labels))
-        x = self._vector(counts, colour)
-        if x is None:
+        if vector is None:
             probabilities[0] = 1.0
             return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory)
-        margins = self.classifier.coef_ @ x + self.classifier.intercept_
+        margins = self.classifier.coef_ @ vector + self.classifier.intercept_
         ids = self._ids_of_classes()
         probabilities[ids] = self.classifier.probabilities(margins[None])[0]
         familiarity = float(self.classifier.familiarity(margins[None])[0])

@@ -102,6 +102,30 @@ class NeuralGas(Estimator):
         self.quantization_error_ = self._error(samples)
         return self
 
+    def partial_fit(self, X: ArrayLike, y: object = None) -> Self:
+        """Go on learning from more samples `X` (N, D), without starting over; `y` is ignored.
+
+        The first call learns like `fit`. Later ones pass once over the samples at the final step
+        and range: the gas has cooled, and its prototypes follow what is new a little.
+
+        Raises
+        ------
+        ValueError
+            `X` is not a finite (N, D) array, or a parameter is out of range.
+        """
+        if not self.__sklearn_is_fitted__():
+            return self.fit(X)
+        self._check_params()
+        samples = self._check_X(X, np.float32)
+        mean = samples.mean(axis=0)
+        prototypes = self.prototypes_ - mean
+        for i in range(0, len(samples), self.batch_size):
+            batch = samples[i : i + self.batch_size] - mean
+            _adapt(prototypes, batch, self.final_step, self.final_range)
+        self.prototypes_ = prototypes + mean
+        self.quantization_error_ = self._error(samples)
+        return self
+
     def transform(self, X: ArrayLike) -> NDArray[np.float32]:
         """Return the distances (N, Q) from samples (N, D) to the prototypes."""
         self._check_fitted()

@@ -188,8 +188,8 @@ def learn(
     labels = LabelSpace.of(images)
     return PlaceModel(
         labels, bag, classifier, features, settings.normalisation, settings.min_features,
-        asdict(summary), encoder, _threshold(classifier, settings.reject),
-        count_transitions(_walks(usable), labels.names[1:]),
+        asdict(summary), encoder, threshold(classifier, settings.reject),
+        count_transitions(walks_of(usable), labels.names[1:]),
     )  # fmt: skip
 
 
@@ -266,13 +266,13 @@ def _groups(images: Sequence[Described]) -> list[str]:
     return [d.example.group for d in images]
 
 
-def _walks(images: Sequence[Described]) -> list[list[str]]:
+def walks_of(images: Sequence[Described]) -> list[list[str]]:
     """Return the labels along each sequence that the images are from, in time order."""
     by_session = groupby(images, key=lambda d: d.example.session)
     return [[d.example.label for d in walk] for _, walk in by_session]
 
 
-def _threshold(classifier: PlaceClassifier, share: float) -> float:
+def threshold(classifier: PlaceClassifier, share: float) -> float:
     """Return the familiarity below which `share` of the held-out images lie."""
     known = classifier.familiarity_[np.isfinite(classifier.familiarity_)]
     return float(np.quantile(known, share)) if len(known) and share else 0.0

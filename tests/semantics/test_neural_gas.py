@@ -103,3 +103,24 @@ def test_prediction_does_not_import_sklearn():
         "sys.exit('sklearn' in sys.modules or 'networkx' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_partial_fit_follows_new_data_without_forgetting(blobs):
+    gas = NeuralGas(6, 2, final_step=0.05, random_state=0).partial_fit(blobs)
+    np.testing.assert_array_equal(
+        gas.prototypes_, NeuralGas(6, 2, final_step=0.05, random_state=0).fit(blobs).prototypes_
+    )
+    elsewhere = blobs.mean(axis=0) + 50 + 0.1 * (blobs - blobs.mean(axis=0))
+    before = gas.transform(elsewhere).min(axis=1).mean()
+    known = gas.transform(blobs).min(axis=1).mean()
+    for _ in range(20):
+        gas.partial_fit(elsewhere)
+    assert gas.transform(elsewhere).min(axis=1).mean() < 0.2 * before
+    # Only the prototypes nearest to the new samples went there.
+    assert np.median(gas.transform(blobs).min(axis=1)) < 3 * known
+
+
+def test_partial_fit_refuses_other_features(blobs):
+    gas = NeuralGas(6, 2, random_state=0).fit(blobs)
+    with pytest.raises(ValueError, match="expecting"):
+        gas.partial_fit(np.ones((4, blobs.shape[1] + 1)))

@@ -1,0 +1,161 @@
+"""The images of the experiments: rendered buildings from the cache, or the user's folders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.buildings import building_settings, cached
+from app.console import Terminal
+from app.training import labelled_examples
+from datasets.building.settings import LIGHTS
+from datasets.open import open_sequence
+from semantics.classifier import PlaceClassifier
+from semantics.examples import Example, sequence_examples
+from semantics.extraction import Described, describe_images
+from semantics.filter import count_transitions
+from semantics.labels import UNKNOWN, LabelSpace
+from semantics.model import PlaceModel, PlacePrediction
+from semantics.training import Preset, learn, preset, threshold, vectors_of, walks_of
+from semantics.trials import Bench
+
+# Six buildings to experiment on, and one to learn the words from. The demonstration uses others.
+SEEDS, WORD_SEED = (20, 21, 22, 23, 24, 25), 26
+# Small images, wide steps: the experiments compare views, they do not track. One image in four of
+# a walk is learned from or tested, so that hardly two are alike.
+WALK = {"width": 320, "height": 240, "step_m": 0.16, "turn_deg": 8.0}
+STRIDE = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """Images of one building, or of one folder, in one light."""
+
+    building: str
+    light: str
+    examples: list[Example]
+
+
+def rendered_walks(seeds: Sequence[int], terminal: Terminal) -> list[Walk]:
+    """Return the walks through rendered buildings in every light, rendering what is missing."""
+    walks = []
+    for seed in seeds:
+        roots = cached(LIGHTS, building_settings(seed=seed, **WALK), terminal)
+        for light, root in zip(LIGHTS, roots, strict=True):
+            walks.append(Walk(f"building{seed}", light, sequence_examples(open_sequence(root))))
+    return walks
+
+
+def data_walks(roots: Sequence[Path]) -> list[Walk]:
+    """Return the user's folders or sequences, each a building and a light of its own."""
+    return [Walk(root.name, root.name, labelled_examples(root)) for root in roots]
+
+
+class Describer:
+    """Turns images into what the classifier of a preset sees; the words are learned beforehand.
+
+    Parameters
+    ----------
+    name : str
+        The preset.
+    examples : sequence of Example
+        What the words are learned from: images that are never tested.
+    seed : int
+        Of the words.
+    terminal : Terminal
+        Shows progress.
+    """
+
+    def __init__(
+        self, name: Preset, examples: Sequence[Example], seed: int, terminal: Terminal
+    ) -> None:
+        self.settings, self.features = preset(name)
+        self.terminal = terminal
+        self.model = learn(
+            self.describe(examples, "Learning words"), self.features, self.settings, seed
+        )
+
+    def describe(self, examples: Sequence[Example], title: str) -> list[Described]:
+        """Return the readable images, described."""
+        dense = self.settings.fisher.dense if self.settings.encoding == "fisher" else None
+        known = [example for example in examples if example.label != UNKNOWN]
+        with self.terminal.progress(title) as advance:
+            found = describe_images(
+                known, self.features, dense, self.settings.threads,
+                lambda done, total: advance(done, total, "images"),
+            )  # fmt: skip
+        return [described for described in found if described is not None]
+
+    def vectors(self, images: Sequence[Described]) -> NDArray[np.float64]:
+        """Return what the classifier sees (N, D)."""
+        found = vectors_of(images, self.model.bag, self.model.encoder, self.settings)
+        return np.asarray(found, dtype=np.float64)
+
+    def relearned(
+        self, images: Sequence[Described], groups: Sequence[str], seed: int
+    ) -> PlaceModel:
+        """Return a model with the same words whose machines are learned from other images."""
+        classifier = PlaceClassifier(self.settings.C, random_state=seed).fit(
+            self.vectors(images), [image.example.label for image in images], groups
+        )
+        labels = LabelSpace.of(image.example.label for image in images)
+        return replace(
+            self.model, labels=labels, classifier=classifier,
+            reject_below=threshold(classifier, self.settings.reject),
+            transitions=count_transitions(walks_of(images), labels.names[1:]),
+        )  # fmt: skip
+
+    def predictions(self, model: PlaceModel, images: Sequence[Described]) -> list[PlacePrediction]:
+        """Return what each image alone looks like."""
+        none = np.zeros(model.bag.n_words)
+        return [model.prediction(vector, none) for vector in self.vectors(images)]
+
+    def bench(self, walks: Sequence[Walk], stride: int) -> Bench:
+        """Return every `stride`-th image of the walks as the experiments take them.
+
+        The vectors are turned onto the axes that they span, which changes no product of two and
+        makes them shorter.
+        """
+        chosen = [(walk, e) for walk in walks for e in walk.examples[::stride]]
+        images = self.describe([e for _, e in chosen], "Describing images")
+        names = {id(e): walk for walk, e in chosen}
+        where = [names[id(image.example)] for image in images]
+        return Bench(
+            turned(self.vectors(images)),
+            np.array([image.example.label for image in images]),
+            np.array([image.example.group for image in images]),
+            np.array(
+                [f"{w.building}/{_room(i.example)}" for w, i in zip(where, images, strict=True)]
+            ),
+            np.array([walk.building for walk in where]),
+            np.array([walk.light for walk in where]),
+            self.settings.C,
+        )
+
+
+def route_positions(images: Sequence[Described]) -> NDArray[np.float64]:
+    """Return where the images of one sequence were taken (N, 3); steps of 0.1 m if not known."""
+    sequence = open_sequence(Path(images[0].example.session))
+    truth = sequence.ground_truth
+    stamps = np.array([image.example.stamp_s for image in images])
+    if truth is None:
+        return np.column_stack([0.1 * np.arange(len(stamps)), np.zeros((len(stamps), 2))])
+    nearest = np.abs(truth.stamps_s[None] - stamps[:, None]).argmin(axis=1)
+    return np.asarray(truth.positions[nearest])
+
+
+def turned(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors (N, D) on the at most N axes that they span; (N, D) if D is not more."""
+    if vectors.shape[1] <= len(vectors):
+        return vectors
+    values, axes = np.linalg.eigh(vectors @ vectors.T)
+    kept = values > values[-1] * 1e-10
+    return np.asarray(axes[:, kept] * np.sqrt(values[kept]))
+
+
+def _room(example: Example) -> str:
+    return example.place or example.group

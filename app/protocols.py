@@ -1,0 +1,210 @@
+"""The paper's experiments, each from one command."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app.console import Terminal
+from app.errors import AppError
+from app.protocol_data import (
+    SEEDS,
+    STRIDE,
+    WORD_SEED,
+    Describer,
+    Walk,
+    data_walks,
+    rendered_walks,
+    route_positions,
+)
+from app.protocol_report import ProtocolReport
+from semantics import trials
+from semantics.model import PlaceModel
+from semantics.route import route_trials
+from semantics.training import Preset
+from semantics.trials import Bench, Trial
+
+PERMUTATIONS = 100
+WORDS_NOTE = "The words are learned from images that are never tested: {}."
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """What an experiment works on."""
+
+    describer: Describer
+    walks: list[Walk]
+    bench: Bench
+    data: tuple[str, ...]
+    notes: tuple[str, ...]
+    seed: int
+    terminal: Terminal
+
+    def watched(self, title: str, found: Iterator[Trial], total: int) -> tuple[Trial, ...]:
+        """Return all trials, with a progress bar."""
+        done = []
+        with self.terminal.progress(title) as advance:
+            for trial in found:
+                done.append(trial)
+                advance(len(done), total, trial.row)
+        return tuple(done)
+
+
+def run_protocol(
+    name: str,
+    preset: Preset,
+    data: Sequence[Path],
+    seed: int,
+    terminal: Terminal,
+    seeds: Sequence[int] = SEEDS,
+) -> ProtocolReport:
+    """Run an experiment on rendered buildings, or on the user's data.
+
+    Raises
+    ------
+    AppError
+        There is no experiment of that name, or the data are not of the kind that it needs.
+    """
+    if name not in PROTOCOLS:
+        raise AppError(
+            "no such experiment", where="--protocol", expected=" or ".join(PROTOCOLS), got=name
+        )
+    if name == "recognition" and len(data) == 1 and (data[0] / "test").is_dir():
+        return _train_and_test(preset, data[0], seed, terminal)
+    material = _material(preset, data, seed, terminal, seeds)
+    return replace(PROTOCOLS[name](material), name=name, preset=preset)
+
+
+def _recognition(m: Material) -> ProtocolReport:
+    lights = len(set(m.bench.lights.tolist()))
+    total = trials.N_FOLDS * (lights + 1 + (lights > 1))
+    found = m.watched("Recognition", trials.recognition(m.bench, m.seed), total)
+    last = found[-1].row
+    rows = tuple(dict.fromkeys(t.row for t in found if t.row != last))
+    notes = (
+        "Ten folds. In each light a visit to a room is held out whole; fused, a room is held out "
+        "in all lights at once. A class with a single visit is cut into blocks of its frames.",
+        f"The row '{last}' deals single frames, as the paper does: not counted in the headline.",
+    )
+    return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows)
+
+
+def _light(m: Material) -> ProtocolReport:
+    lights, buildings = set(m.bench.lights.tolist()), set(m.bench.buildings.tolist())
+    if len(lights) < 2:
+        raise AppError("one light only", expected="the same rooms in two lights, a folder each")
+    if len(buildings) == len(lights):
+        # Folders of the user: each is a light, and all show one building.
+        same = np.full(len(m.bench.labels), "data")
+        m = replace(m, bench=replace(m.bench, buildings=same))
+        buildings = {"data"}
+    total = len(lights) * (len(lights) - 1) * len(buildings)
+    found = m.watched("Across light", trials.light(m.bench), total)
+    notes = (
+        "Trained in one light and tested in another, building by building (the paper's Table 2). "
+        "The same walk is taken in each light, so the views are the same.",
+        *m.notes,
+    )
+    return ProtocolReport("", "", m.data, found, notes)
+
+
+def _building(m: Material) -> ProtocolReport:
+    buildings = set(m.bench.buildings.tolist())
+    if len(buildings) < 2:
+        raise AppError("one building only", expected="two folders or more with --data")
+    found = m.watched(
+        "Other buildings", trials.building(m.bench, m.seed, PERMUTATIONS), PERMUTATIONS
+    )
+    judgement = None
+    if len(buildings) > 2:
+        with m.terminal.progress("Probabilities") as advance:
+            judgement = trials.judge(m.bench, lambda done, total: advance(done, total, ""))
+    notes = (
+        f"{PERMUTATIONS} permutations: half of the buildings and half of their images are learned, "
+        "the other buildings tested, then back (the paper's Fig. 15).",
+        "Probabilities: each building left out in turn. Unknown: each kind of place left out of "
+        "training, a building never seen tested.",
+        *m.notes,
+    )
+    return ProtocolReport("", "", m.data, found, notes, judgement=judgement)
+
+
+def _route(m: Material) -> ProtocolReport:
+    names = list(dict.fromkeys(walk.building for walk in m.walks))
+    if len(names) < 2:
+        raise AppError("one building only", expected="folders to learn from, then the route")
+    routes = [walk for walk in m.walks if walk.light == "day"] or m.walks[-1:]
+    found: list[Trial] = []
+    for done, walk in enumerate(routes, 1):
+        images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
+        model = _model_without(m, walk.building)
+        found += route_trials(
+            model, m.describer.predictions(model, images),
+            [image.example.label for image in images], route_positions(images),
+        )  # fmt: skip
+    notes = (
+        "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
+        "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
+        "Filter: a hidden Markov model with the delay of the vote. Smoothed: beliefs propagated "
+        "over the finished graph.",
+        *m.notes,
+    )
+    return ProtocolReport("", "", m.data, tuple(found), notes, ("nodes, vote",))
+
+
+def _model_without(m: Material, building: str) -> PlaceModel:
+    """Return a model of all buildings but one; the words are those of the bench."""
+    known = [walk for walk in m.walks if walk.building != building]
+    chosen = [(w.building, e) for w in known for e in w.examples[::STRIDE]]
+    images = m.describer.describe([e for _, e in chosen], f"Learning all but {building}")
+    of = {id(example): name for name, example in chosen}
+    return m.describer.relearned(images, [of[id(image.example)] for image in images], m.seed)
+
+
+PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
+    "recognition": _recognition,
+    "light": _light,
+    "building": _building,
+    "route": _route,
+}
+
+
+def _material(
+    preset: Preset, data: Sequence[Path], seed: int, terminal: Terminal, seeds: Sequence[int]
+) -> Material:
+    if data:
+        walks = data_walks(data)
+        words = [e for walk in walks for e in walk.examples[::STRIDE]]
+        note = "The words are learned from a quarter of all images, without their labels."
+    else:
+        walks = rendered_walks(seeds, terminal)
+        words = [e for w in rendered_walks((WORD_SEED,), terminal) for e in w.examples[::STRIDE]]
+        note = WORDS_NOTE.format(f"building {WORD_SEED}")
+    describer = Describer(preset, words, seed, terminal)
+    bench = describer.bench(walks, 1 if data else STRIDE)
+    names = tuple(str(root) for root in data) or tuple(
+        f"rendered {name}" for name in dict.fromkeys(walk.building for walk in walks)
+    )
+    return Material(describer, walks, bench, names, (note,), seed, terminal)
+
+
+def _train_and_test(preset: Preset, root: Path, seed: int, terminal: Terminal) -> ProtocolReport:
+    """Learn from the folder ``train``, label the folder ``test``."""
+    train, test = (data_walks([root / part])[0].examples for part in ("train", "test"))
+    describer = Describer(preset, train, seed, terminal)
+    images = describer.describe(test, "Describing test images")
+    found = describer.model.classifier.predict(describer.vectors(images)).astype(str)
+    truth = np.array([image.example.label for image in images])
+    # The spread of five parts of the test images says how far the figure can be trusted.
+    parts = np.array_split(np.random.default_rng(seed).permutation(len(truth)), 5)
+    trial = [Trial("train to test, fifths", truth[part], found[part]) for part in parts]
+    accuracy: Any = describer.model.training["cross_validated_accuracy"]
+    notes = (
+        f"Learned from {root.name}/train alone, tested on {root.name}/test; std over five parts.",
+        f"Cross-validated on the training images: {accuracy:.1%}.",
+    )
+    return ProtocolReport("recognition", preset, (str(root),), tuple(trial), notes)

@@ -1,0 +1,172 @@
+"""The experiment of the paper's Fig. 9: how many visual words, at what cost."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.console import Terminal
+from app.protocol_data import STRIDE, WORD_SEED, data_walks, rendered_walks
+from datasets.files import replacing, write_text
+from semantics.extraction import describe_images
+from semantics.neural_gas import NeuralGas
+from semantics.training import preset
+
+NAME = "vocabulary"
+NUMBERS = (10, 25, 50, 100, 200, 400)
+SEEDS = (0, 1, 2)
+MOST = 60_000
+# The number of words that the paper settles on.
+CHOSEN = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Quantised:
+    """One vocabulary: how it was made, of how many vectors, how well it stands for the data.
+
+    `accuracy` is the share of the descriptors' variance that their words account for.
+    """
+
+    method: str
+    vectors: int
+    seed: int
+    accuracy: float
+    error: float
+    cpu_s: float
+
+
+def run_vocabulary(data: list[Path], terminal: Terminal) -> list[Quantised]:
+    """Learn vocabularies of several sizes by Neural Gas, k-means and mini-batch k-means."""
+    descriptors = _descriptors(data, terminal)
+    variance = float(descriptors.var(axis=0, dtype=np.float64).sum())
+    found = []
+    with terminal.progress("Learning vocabularies") as advance:
+        total = len(NUMBERS) * len(SEEDS) * len(_methods())
+        for number in NUMBERS:
+            for seed in SEEDS:
+                for name, make in _methods().items():
+                    started = time.process_time()
+                    error = make(number, seed)(descriptors)
+                    seconds = time.process_time() - started
+                    found.append(
+                        Quantised(name, number, seed, 1 - error / variance, error, seconds)
+                    )
+                    advance(len(found), total, f"{name}, {number} vectors")
+    return found
+
+
+def write_vocabulary(directory: Path, found: list[Quantised], data: list[Path]) -> dict[str, Any]:
+    """Write vocabulary.json, vocabulary.md and vocabulary.png."""
+    directory.mkdir(parents=True, exist_ok=True)
+    rows = [_row(found, method, number) for number in NUMBERS for method in _methods()]
+    chosen = next(r for r in rows if r["vectors"] == CHOSEN and r["method"] == "Neural Gas")
+    content = {
+        "schema": "roomgraph/protocol/1",
+        "protocol": NAME,
+        "data": [str(root) for root in data] or [f"rendered building{WORD_SEED}"],
+        "accuracy_mean": chosen["accuracy_mean"],
+        "accuracy_std": chosen["accuracy_std"],
+        "per_class": {},
+        "rows": rows,
+        "notes": [
+            "Accuracy: share of the descriptors' variance that their words account for, at "
+            f"{CHOSEN} Neural Gas vectors in the headline. Times: CPU seconds.",
+        ],
+    }
+    write_text(directory / f"{NAME}.json", json.dumps(content, indent=1) + "\n")
+    write_text(directory / f"{NAME}.md", vocabulary_markdown(content))
+    _draw(directory / f"{NAME}.png", rows)
+    return content
+
+
+def vocabulary_markdown(content: dict[str, Any]) -> str:
+    """Return the table as Markdown."""
+    lines = [
+        f"# {NAME}", "", f"On {', '.join(content['data'])}.", "",
+        "| vectors | method | accuracy | std | quantisation error | CPU s |",
+        "| ---: | --- | ---: | ---: | ---: | ---: |",
+    ]  # fmt: skip
+    lines += [
+        f"| {r['vectors']} | {r['method']} | {r['accuracy_mean']:.1%} | {r['accuracy_std']:.2%} | "
+        f"{r['error']:.0f} | {r['cpu_s']:.2f} |"
+        for r in content["rows"]
+    ]
+    return "\n".join([*lines, "", *(f"- {note}" for note in content["notes"])]) + "\n"
+
+
+def _descriptors(data: list[Path], terminal: Terminal) -> NDArray[np.float32]:
+    walks = data_walks(data) if data else rendered_walks((WORD_SEED,), terminal)
+    settings, features = preset("paper")
+    examples = [e for walk in walks for e in walk.examples[::STRIDE]]
+    with terminal.progress("Describing images") as advance:
+        images = describe_images(
+            examples, features, None, settings.threads, lambda a, b: advance(a, b, "images")
+        )
+    found = np.vstack([image.descriptors for image in images if image is not None])
+    rows = np.random.default_rng(0).permutation(len(found))[:MOST]
+    return np.ascontiguousarray(found[rows])
+
+
+def _methods() -> dict[str, Callable[[int, int], Callable[[NDArray[np.float32]], float]]]:
+    """Return what learns words and gives the mean squared error, by number and seed."""
+    from sklearn.cluster import KMeans, MiniBatchKMeans
+
+    return {
+        "Neural Gas": lambda n, s: (
+            lambda X: float(NeuralGas(n, random_state=s).fit(X).quantization_error_)
+        ),
+        "k-means": lambda n, s: (
+            lambda X: float(KMeans(n, n_init=1, random_state=s).fit(X).inertia_ / len(X))
+        ),
+        "mini-batch k-means": lambda n, s: (
+            lambda X: float(
+                -MiniBatchKMeans(n, n_init=1, batch_size=1024, random_state=s).fit(X).score(X)
+                / len(X)
+            )
+        ),
+    }
+
+
+def _row(found: list[Quantised], method: str, number: int) -> dict[str, Any]:
+    own = [q for q in found if q.method == method and q.vectors == number]
+    accuracy = [q.accuracy for q in own]
+    return {
+        "method": method,
+        "vectors": number,
+        "accuracy_mean": round(float(np.mean(accuracy)), 4),
+        "accuracy_std": round(float(np.std(accuracy)), 4),
+        "error": round(float(np.mean([q.error for q in own])), 2),
+        "cpu_s": round(float(np.median([q.cpu_s for q in own])), 3),
+    }
+
+
+def _draw(path: Path, rows: list[dict[str, Any]]) -> None:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10, 4), layout="constrained")
+    accuracy, times = figure.subplots(1, 2)
+    for method in _methods():
+        own = [row for row in rows if row["method"] == method]
+        numbers = [row["vectors"] for row in own]
+        accuracy.errorbar(
+            numbers, [100 * row["accuracy_mean"] for row in own],
+            [100 * row["accuracy_std"] for row in own], fmt="o-", capsize=3, label=method,
+        )  # fmt: skip
+        times.plot(numbers, [row["cpu_s"] for row in own], "o-", label=method)
+    accuracy.set(xscale="log", xlabel="vectors", ylabel="variance accounted for (%)")
+    times.set(xscale="log", yscale="log", xlabel="vectors", ylabel="CPU time (s)")
+    for axis in (accuracy, times):
+        axis.set_xticks(NUMBERS, [str(number) for number in NUMBERS])
+        axis.minorticks_off()
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.grid(alpha=0.3)
+    accuracy.legend(frameon=False)
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=110)

@@ -1,0 +1,187 @@
+"""The paper's experiments as plain computations on described images."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semantics.classifier import PlaceClassifier
+from semantics.folds import assign_folds
+
+Progress = Callable[[int, int], None]
+N_FOLDS = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Bench:
+    """Images as the classifier sees them, with what is known about each.
+
+    Attributes
+    ----------
+    vectors : (N, D) float64
+        What the classifier sees.
+    labels, visits, rooms, buildings, lights : (N,) str
+        The kind of place, the visit, the very room, the building and its light.
+    C : float
+        Penalty of the SVM.
+    """
+
+    vectors: NDArray[np.float64]
+    labels: NDArray[np.str_]
+    visits: NDArray[np.str_]
+    rooms: NDArray[np.str_]
+    buildings: NDArray[np.str_]
+    lights: NDArray[np.str_]
+    C: float
+
+    @property
+    def classes(self) -> list[str]:
+        """The kinds of place, sorted."""
+        return sorted({str(label) for label in self.labels})
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One training and one test: the true and the found labels of the images tested.
+
+    `row` is the line of the table that it counts for.
+    """
+
+    row: str
+    truth: NDArray[np.str_]
+    found: NDArray[np.str_]
+
+    @property
+    def accuracy(self) -> float:
+        """Share of images labelled rightly."""
+        return float(np.mean(self.truth == self.found))
+
+    @property
+    def mean_per_class(self) -> float:
+        """Mean over the classes of the share labelled rightly."""
+        return float(np.mean(list(per_class([self]).values())))
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """Probabilities (N, K) of images of buildings never seen, their truth (N,), familiarity (N,).
+
+    `strange` is the familiarity of images of a kind of place never seen.
+    """
+
+    classes: list[str]
+    probabilities: NDArray[np.float64]
+    truth: NDArray[np.str_]
+    familiarity: NDArray[np.float64]
+    strange: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    usual: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+
+
+def per_class(trials: Sequence[Trial]) -> dict[str, float]:
+    """Return the share of the images of each class that were labelled rightly, over all trials."""
+    truth = np.concatenate([trial.truth for trial in trials])
+    right = truth == np.concatenate([trial.found for trial in trials])
+    return {str(name): float(right[truth == name].mean()) for name in np.unique(truth)}
+
+
+def run_trial(bench: Bench, row: str, train: NDArray[np.bool_], test: NDArray[np.bool_]) -> Trial:
+    """Learn from some images of the bench and label others."""
+    classifier = PlaceClassifier(bench.C, n_folds=1).fit(bench.vectors[train], bench.labels[train])
+    return Trial(row, bench.labels[test], classifier.predict(bench.vectors[test]).astype(str))
+
+
+def recognition(bench: Bench, seed: int) -> Iterator[Trial]:
+    """Ten folds in each light and in all: visits held out whole, then frames drawn as they come."""
+    lights = sorted(set(bench.lights.tolist()))
+    for light in lights:
+        inside = bench.lights == light
+        yield from _folds(bench, light, inside, bench.visits, seed)
+    if len(lights) > 1:
+        everything = np.ones(len(bench.labels), dtype=bool)
+        yield from _folds(bench, "fused", everything, bench.rooms, seed)
+    row = "frames of one visit on both sides (paper)"
+    yield from _folds(bench, row, np.ones(len(bench.labels), dtype=bool), None, seed)
+
+
+def light(bench: Bench) -> Iterator[Trial]:
+    """Train in one light, test in another, in each building (paper, Table 2)."""
+    lights = sorted(set(bench.lights.tolist()))
+    for a in lights:
+        for b in lights:
+            if a != b:
+                for building in sorted(set(bench.buildings.tolist())):
+                    inside = bench.buildings == building
+                    train, test = inside & (bench.lights == a), inside & (bench.lights == b)
+                    if train.any() and test.any():
+                        yield run_trial(bench, f"{a} to {b}", train, test)
+
+
+def building(bench: Bench, seed: int, permutations: int = 100) -> Iterator[Trial]:
+    """Train on half of the buildings, test on the other half and back (paper, Fig. 15).
+
+    Each permutation draws the halves, and half of the training images.
+    """
+    random = np.random.default_rng(seed)
+    names = sorted(set(bench.buildings.tolist()))
+    halves = list(combinations(names, len(names) // 2))
+    for i in range(permutations):
+        if i % 2 == 0:
+            first = halves[int(random.integers(len(halves)))]
+        inside = np.isin(bench.buildings, first) == (i % 2 == 0)
+        train = inside & (random.random(len(inside)) < 0.5)
+        yield run_trial(bench, "there" if i % 2 == 0 else "and back", train, ~inside)
+
+
+def judge(bench: Bench, progress: Progress) -> Judgement:
+    """Return probabilities for buildings left out, and familiarity for kinds left out as well."""
+    names, classes = sorted(set(bench.buildings.tolist())), bench.classes
+    shape = (len(bench.labels), len(classes))
+    probabilities, familiarity = np.zeros(shape), np.zeros(shape[0])
+    strange, usual = {}, {}
+    total = len(names) + len(classes)
+    for done, name in enumerate(names, 1):
+        test = bench.buildings == name
+        fitted = _calibrated(bench, ~test)
+        decisions = _decisions(fitted, bench.vectors[test])
+        columns = [classes.index(str(c)) for c in fitted.classes_]
+        found = np.zeros((int(test.sum()), len(classes)))
+        found[:, columns] = fitted.probabilities(decisions)
+        probabilities[test], familiarity[test] = found, fitted.familiarity(decisions)
+        progress(done, total)
+    for i, kind in enumerate(classes):
+        test = bench.buildings == names[i % len(names)]
+        fitted = _calibrated(bench, ~test & (bench.labels != kind))
+        found = fitted.familiarity(_decisions(fitted, bench.vectors[test]))
+        is_strange = bench.labels[test] == kind
+        strange[kind], usual[kind] = found[is_strange], found[~is_strange]
+        progress(len(names) + i + 1, total)
+    return Judgement(classes, probabilities, bench.labels, familiarity, strange, usual)
+
+
+def _calibrated(bench: Bench, train: NDArray[np.bool_]) -> PlaceClassifier:
+    buildings = bench.buildings[train].tolist()
+    return PlaceClassifier(bench.C, random_state=0).fit(
+        bench.vectors[train], bench.labels[train], buildings
+    )
+
+
+def _decisions(fitted: PlaceClassifier, X: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(X @ fitted.coef_.T + fitted.intercept_)
+
+
+def _folds(
+    bench: Bench, row: str, inside: NDArray[np.bool_], groups: NDArray[np.str_] | None, seed: int
+) -> Iterator[Trial]:
+    members = np.flatnonzero(inside)
+    own = None if groups is None else groups[members]
+    folds = assign_folds(bench.labels[members], own, N_FOLDS, np.random.default_rng(seed))
+    for fold in range(N_FOLDS):
+        test = np.zeros(len(inside), dtype=bool)
+        test[members[folds == fold]] = True
+        train = inside & ~test
+        if test.any() and len(np.unique(bench.labels[train])) > 1:
+            yield run_trial(bench, row, train, test)
