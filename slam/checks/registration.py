@@ -36,7 +36,7 @@ class RegistrationSettings(Settings):
         0.3, gt=0, description="strength of colour edges that outlines have to lie on"
     )
     min_gain: float = Field(
-        4.0, ge=2, description="gain of the fit over that of the depth as it is, standard errors"
+        3.0, ge=2, description="gain of the fit over that of the depth as it is, standard errors"
     )
 
 
@@ -114,6 +114,7 @@ def find_misplacement(
         for half, alignment in zip(halves, (second, first), strict=True)
     ])  # fmt: skip
     best, none, wrong = rows[:, 0], rows[:, 1], rows[:, 2:]
+    # That two independent halves agree is rare by chance already: the gain need not be as sure.
     error = gain_error(wrong, np.ones((len(rows), 2), dtype=np.int64))
     if best.mean() < settings.min_score or np.mean(best - none) < settings.min_gain * error:
         return None
