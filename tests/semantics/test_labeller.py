@@ -110,3 +110,75 @@ def test_is_cheap():
         labeller.process(item)
         times.append(time.perf_counter() - start)
     assert np.median(times) < 0.01
+
+
+def looked_at(index, word, is_looked_at=True, x=None):
+    item = tracking(index, word=word)
+    if not is_looked_at:
+        item = item.without_features()
+    T = np.eye(4)
+    T[0, 3] = 0.1 * index if x is None else x
+    object.__setattr__(item, "T_world_camera", T)
+    return item
+
+
+def labelled(model, items, **settings):
+    labeller = PlaceLabeller(model, LabellerSettings(**settings))
+    parts = [labeller.process(item) for item in items]
+    return parts, [f for part in parts for f in part] + labeller.finish()
+
+
+def test_frames_without_features_take_the_label_around_them(model):
+    words = [0] * 30 + [1] * 30
+    items = [looked_at(i, word, i % 6 == 0) for i, word in enumerate(words)]
+    parts, labels = labelled(model, items, window=13, min_voters=3)
+    assert [f.tracking.index for f in labels] == list(range(60))
+    found = [f.label for f in labels]
+    assert found[:27] == ["corridor"] * 27
+    assert found[33:] == ["kitchen"] * 27
+    assert [f.raw_label for f in labels[:3]] == ["corridor", "unknown", "unknown"]
+    assert all(len(f.histogram) for f in labels)
+    # As late as half a window, and as the first keyframe after it.
+    assert 6 <= next(i for i, part in enumerate(parts) if part) <= 12
+
+
+def test_the_vote_does_not_depend_on_the_frame_rate(model):
+    """The same keyframes with three or with thirty frames between them."""
+    words = [0, 0, 2, 0, 0, 1, 1, 0, 1, 1]
+    at = {}
+    for between in (3, 30):
+        items = [looked_at(i, words[i // between], i % between == 0) for i in range(10 * between)]
+        _, labels = labelled(model, items, window=9, min_voters=5, max_delay=999)
+        at[between] = [labels[i * between].label for i in range(10)]
+    assert at[3] == at[30]
+    assert (at[3][:4], at[3][6:]) == (["corridor"] * 4, ["kitchen"] * 4)
+
+
+def test_a_camera_that_stands_still_gets_its_labels_in_the_end(model):
+    items = [looked_at(i, 0, i < 3) for i in range(50)]
+    parts, labels = labelled(model, items, window=5, min_voters=5, max_delay=20)
+    assert [len(part) for part in parts[25:]] == [1] * 25
+    assert {f.label for f in labels} == {"corridor"}
+
+
+def test_voters_are_named(model):
+    items = [looked_at(i, w) for i, w in enumerate([0, 0, 2, 0, 0])]
+    _, labels = labelled(model, items, window=5, min_voters=1)
+    assert labels[2].voters == (0, 1, 3, 4)
+    assert labels[2].probabilities[labels[2].label_id] == labels[2].score
+
+
+def test_the_filter_puts_a_lone_mistake_right(model):
+    words = [0] * 8 + [2] + [0] * 8 + [1] * 10
+    items = [looked_at(i, w, x=0.5 * i) for i, w in enumerate(words)]
+    _, labels = labelled(model, items, window=7, min_voters=3, method="filter", change_m=50)
+    assert [f.label for f in labels] == ["corridor"] * 17 + ["kitchen"] * 10
+    assert all(0 < f.score <= 1 for f in labels)
+
+
+def test_memory_stays_bounded(model):
+    labeller = PlaceLabeller(model, LabellerSettings(window=7, min_voters=3))
+    for i in range(300):
+        labeller.process(looked_at(i, i % 3))
+    assert len(labeller._looks) <= 12
+    assert len(labeller._waiting) <= 4
