@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 class RelocaliserSettings(Settings):
     """How keyframes are proposed and believed."""
 
-    candidates: int = Field(10, ge=1, le=100, description="keyframes tried, the most alike first")
+    candidates: int = Field(6, ge=1, le=100, description="keyframes tried, the most alike first")
     neighbours: int = Field(3, ge=0, le=50, description="keyframes joined to a candidate")
     min_inliers: int = Field(30, ge=6, description="fewer agreeing matches are no pose")
     enough_inliers: int = Field(

@@ -41,6 +41,7 @@ def export(
     trajectory      tum, kitti, csv
     pose graph      g2o
     cloud           ply, pcd, las, e57
+    mesh            mesh-ply, obj, glb
     graph           json, graphml, dot, graph-csv, hydra
     occupancy grid  nav2
 
@@ -48,6 +49,7 @@ def export(
     Examples:
       roomgraph export out kitti -o poses.txt
       roomgraph export out las -o floor.las
+      roomgraph export out glb -o floor.glb
       roomgraph export out hydra -o scene_graph.json
       roomgraph export out nav2 -o floor.yaml
       roomgraph export --list

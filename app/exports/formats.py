@@ -16,6 +16,7 @@ from app.exports.graph import (
     write_json,
 )
 from app.exports.grid import picture_beside, write_nav2
+from app.exports.mesh import write_glb, write_mesh_ply, write_obj
 from app.exports.trajectory import frames_beside, write_csv, write_g2o, write_kitti, write_tum
 from app.run_folder import RunFolder, refuse_existing
 
@@ -32,6 +33,9 @@ EXPORTERS: dict[str, Exporter] = {
     "las": Exporter("cloud", "LAS 1.4 with labels, z up, for GIS tools", "map.las", write_las),
     "e57": Exporter("cloud", "E57, z up, for survey tools (pip install 'roomgraph[e57]')",
                     "map.e57", write_e57),
+    "mesh-ply": Exporter("mesh", "PLY, for MeshLab and CloudCompare", "mesh.ply", write_mesh_ply),
+    "obj": Exporter("mesh", "Wavefront OBJ, y up, for Blender", "mesh.obj", write_obj),
+    "glb": Exporter("mesh", "binary glTF, y up, for the web", "mesh.glb", write_glb),
     "json": Exporter("graph", "node-link JSON, for networkx and D3", "graph_export.json",
                      write_json),
     "graphml": Exporter("graph", "GraphML, for Gephi, yEd and networkx", "graph_export.graphml",

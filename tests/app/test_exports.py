@@ -1,12 +1,15 @@
 """Every format, opened again by a library that its users use."""
 
 import csv
+import json
 import shutil
+import struct
 
 import networkx
 import numpy as np
 import pytest
 
+from app.cloud_io import read_cloud
 from app.exports.formats import EXPORTERS
 from app.occupancy_io import read_occupancy
 from app.run_folder import RunFolder
@@ -16,7 +19,7 @@ from semantics.graph_io import read_graph_json
 from tests.app.command import roomgraph
 
 ENDS = {"kitti": ".txt", "graphml": ".graphml", "dot": ".dot", "graph-csv": ".csv",
-        "hydra": ".json", "nav2": ".yaml"}  # fmt: skip
+        "hydra": ".json", "mesh-ply": ".ply", "nav2": ".yaml"}  # fmt: skip
 
 
 @pytest.fixture
@@ -166,11 +169,42 @@ def test_e57_in_pye57(run, export):
     assert np.array_equal(scan["intensity"], label_ids)
 
 
+@pytest.mark.parametrize("name", ["mesh-ply", "obj", "glb"])
+def test_meshes_in_trimesh(run, export, name):
+    import trimesh
+    from scipy.spatial import cKDTree
+
+    (mesh,) = trimesh.load_scene(export(name), process=False).geometry.values()
+    points, colours, _ = read_cloud(run.map)
+    if name != "mesh-ply":
+        x, y, z = _upright(run)[0].T
+        points = np.column_stack([x, z, -y])
+    gaps, nearest = cKDTree(points).query(mesh.vertices)
+    assert len(mesh.faces) > 0.5 * len(points)
+    assert np.percentile(gaps, 95) < 0.05
+    near = gaps < 0.01
+    if name == "glb":
+        seen = np.asarray(mesh.visual.vertex_attributes["color"])[:, :3] / 255
+        seen = np.where(seen <= 0.0031308, 12.92 * seen, 1.055 * seen ** (1 / 2.4) - 0.055)
+    else:
+        seen = np.asarray(mesh.visual.vertex_colors)[:, :3] / 255
+    assert np.median(np.abs(seen - colours[nearest] / 255)[near]) < 0.05
+    if name != "mesh-ply":
+        floor = (np.abs(mesh.vertices[:, 1]) < 0.02) & near
+        assert np.median(mesh.vertex_normals[floor, 1]) > 0.9
+
+
+def test_a_glb_is_matt(export):
+    data = export("glb").read_bytes()
+    (length,) = struct.unpack("<I", data[12:16])
+    tree = json.loads(data[20 : 20 + length])
+    assert tree["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 0
+    assert tree["meshes"][0]["primitives"][0]["material"] == 0
+
+
 # pydot calls pyparsing by its old names.
 @pytest.mark.filterwarnings("ignore:.*deprecated - use:DeprecationWarning")
 def test_graphs_in_networkx_and_pydot(run, export):
-    import json
-
     import pydot
 
     graph = read_graph_json(run.graph_json)
