@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from matplotlib import patheffects, rc_context
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
@@ -136,22 +136,16 @@ def _wall_direction(position: FloatArray, grid: OccupancyGrid) -> FloatArray:
 
 def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:
     """Write each place's name and area into it, as large as fits."""
-    halo = [patheffects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)]
+    ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.55}
     for extent in graph.extents:
         name = extent.name.replace("_", " ")
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
         size = float(np.clip(width / (0.62 * max(len(name), 6)), _SMALL, _LARGE))
-        x, y = _middle(extent.polygon_map, extent.centre_map)
+        x, y = extent.centre_map
         axes.text(
             x, y, f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
-            color=_INK, fontweight="bold", linespacing=1.25, path_effects=halo, zorder=6,
+            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=6,
         )  # fmt: skip
-
-
-def _middle(polygon: FloatArray, centre: FloatArray) -> FloatArray:
-    """Return the middle of a room's box if it lies in the room, else the spot far from walls."""
-    middle = (polygon.min(axis=0) + polygon.max(axis=0)) / 2
-    return middle if Outline(polygon).contains_point(tuple(middle)) else centre
 
 
 def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:

@@ -23,6 +23,8 @@ from slam.survey import Survey
 FloatArray = NDArray[np.float64]
 # What a place is called that nothing labels.
 UNLABELLED = "room"
+# A spot's distance to the walls, as a share of the largest, from which it is far from them.
+_INNERMOST = 0.8
 
 
 class ExtentSettings(Settings):
@@ -260,13 +262,20 @@ def _extent(
     polygon = (outline + 0.5) / fine * space.cell_m + space.origin_xy
     if _turns_clockwise(polygon):
         polygon = polygon[::-1]
-    depth = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
-    row, column = np.unravel_index(int(depth.argmax()), mask.shape)
-    centre = (np.array([column, row]) + 0.5) * space.cell_m + space.origin_xy
+    centre = _centre(mask) * space.cell_m + space.origin_xy
     return Extent(
         name, part.label, graph.labels.id_of(part.label), part.score, polygon,
         float(mask.sum() * space.cell_m**2), centre,
     )  # fmt: skip
+
+
+def _centre(mask: NDArray[np.bool_]) -> FloatArray:
+    """Return x and y (2,), in cells, of the spot next to the middle that is far from all walls."""
+    depth = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
+    inner = np.argwhere(depth >= _INNERMOST * depth.max())
+    middle = np.argwhere(mask).mean(axis=0)
+    row, column = inner[int(np.linalg.norm(inner - middle, axis=1).argmin())]
+    return np.array([column, row]) + 0.5
 
 
 def _turns_clockwise(polygon: FloatArray) -> bool:

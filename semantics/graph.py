@@ -80,7 +80,7 @@ class Extent:
     area_m2 : float
         Of its floor, furniture included.
     centre_map : (2,) float64
-        The spot farthest from its walls, metres.
+        A spot in its middle that is far from its walls, metres.
     """
 
     name: str

@@ -166,7 +166,7 @@ def _plumb_lines(surfaces: _Surfaces) -> FloatArray:
     first, second = np.triu_indices(len(normals), 1)
     lines = np.cross(normals[first], normals[second])
     length = np.linalg.norm(lines, axis=1)
-    return lines[length > 0.5] / length[length > 0.5, None]
+    return np.asarray(lines[length > 0.5] / length[length > 0.5, None])
 
 
 def _floor(

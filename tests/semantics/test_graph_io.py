@@ -3,9 +3,11 @@ import json
 import networkx
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from datasets.poses import pose
 from semantics.errors import SemanticsError
-from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from semantics.graph import Doorway, EdgeKind, Extent, GraphEdge, GraphNode, SemanticGraph
 from semantics.graph_io import read_graph_json, read_graphml, write_graph_json, write_graphml
 from semantics.labels import LabelSpace
 from tests.semantics.helpers import label_space
@@ -28,7 +30,17 @@ def graph():
         GraphEdge(2, 3, 0.5, EdgeKind.PATH),
         GraphEdge(0, 3, 0.123456, EdgeKind.REVISIT),
     )
-    return SemanticGraph(labels, nodes, edges)
+    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 2.5]])
+    extents = (
+        Extent("corridor1", "corridor", 1, 0.75, square, 5.0, np.array([1.0, 1.25])),
+        Extent("office1", "office", 3, 0.5, square + np.array([2.1, 0]), 5.0, np.array([3.1, 1.25])),
+    )
+    doorways = (
+        Doorway(("corridor1", "office1"), np.array([2.05, 1.0]), 0.9),
+        Doorway(("corridor1", "kitchen1"), np.array([0.0, 1.0]), None),
+    )
+    T = pose(Rotation.from_rotvec([0.1, -0.4, 1.2]).as_matrix(), [0.5, -1, 0.8])
+    return SemanticGraph(labels, nodes, edges, extents, doorways, T)
 
 
 def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
@@ -40,6 +52,17 @@ def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
         np.testing.assert_allclose(ours.histogram, theirs.histogram, atol=1e-6)
         for name in ("id", "frame", "stamp_s", "label", "label_id", "place", "score"):
             assert getattr(ours, name) == getattr(theirs, name)
+    for ours, theirs in zip(a.extents, b.extents, strict=True):
+        np.testing.assert_allclose(ours.polygon_map, theirs.polygon_map, atol=1e-4)
+        np.testing.assert_allclose(ours.centre_map, theirs.centre_map, atol=1e-4)
+        for name in ("name", "label", "label_id", "score", "area_m2"):
+            assert getattr(ours, name) == getattr(theirs, name)
+    for ours, theirs in zip(a.doorways, b.doorways, strict=True):
+        assert (ours.places, ours.width_m) == (theirs.places, theirs.width_m)
+        np.testing.assert_allclose(ours.position_map, theirs.position_map, atol=1e-4)
+    assert (a.T_map_world is None) == (b.T_map_world is None)
+    if a.T_map_world is not None:
+        np.testing.assert_allclose(a.T_map_world, b.T_map_world, atol=1e-8)
 
 
 ROUND_TRIPS = [(write_graph_json, read_graph_json), (write_graphml, read_graphml)]
@@ -59,6 +82,20 @@ def test_empty_graph_and_graph_without_model(tmp_path, write, read):
     node = GraphNode(0, 0, 0.0, np.zeros(3), "unknown", 0, "unknown", 0.0, np.empty(0))
     write(tmp_path / "graph", SemanticGraph(LabelSpace(), (node,), ()))
     assert_same(read(tmp_path / "graph"), SemanticGraph(LabelSpace(), (node,), ()))
+
+
+def test_version_1_is_still_read(tmp_path, graph):
+    path = tmp_path / "graph.json"
+    write_graph_json(path, graph)
+    content = json.loads(path.read_text()) | {"version": 1}
+    for name in ("T_map_world", "places", "doorways"):
+        del content[name]
+    path.write_text(json.dumps(content))
+    old = SemanticGraph(graph.labels, graph.nodes, graph.edges)
+    assert_same(read_graph_json(path), old)
+    path.write_text(json.dumps(content | {"version": 3}))
+    with pytest.raises(SemanticsError, match="version 2"):
+        read_graph_json(path)
 
 
 def test_json_says_what_it_is_and_networkx_reads_it(tmp_path, graph):

@@ -1,0 +1,132 @@
+"""The report and the floor plan of a run, as files that a browser opens without a network."""
+
+import re
+import shutil
+import xml.etree.ElementTree as ET
+from html.parser import HTMLParser
+
+import cv2
+import numpy as np
+import pytest
+
+from app.errors import AppError
+from app.report_page import write_report
+from app.run_folder import RunFolder
+from app.thumbnails import ThumbnailWriter, read_thumbnails
+from semantics.graph_io import read_graph_json
+from tests.app.command import roomgraph
+
+
+class _Page(HTMLParser):
+    """Collects what a page links to, what it says, and whether its elements are closed."""
+
+    EMPTY = ("meta", "img", "br", "link", "input", "use", "path", "rect")
+
+    def __init__(self):
+        super().__init__()
+        self.links, self.words, self.open = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.links += [values[n] for n in ("src", "href", "xlink:href") if values.get(n)]
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag not in self.EMPTY:
+            assert self.open.pop() == tag
+
+    def handle_startendtag(self, tag, attributes):
+        self.links += [v for n, v in attributes if n in ("src", "href", "xlink:href")]
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def page_of(run):
+    page = _Page()
+    page.feed((run / "report.html").read_text())
+    assert page.open == []
+    return page
+
+
+def test_the_page_needs_no_other_file(mapped):
+    page = page_of(mapped[1])
+    assert len(page.links) > 3
+    assert all(link.startswith(("data:image/", "#")) for link in page.links)
+    styles = re.findall(r"url\((.*?)\)", (mapped[1] / "report.html").read_text())
+    assert all(style.startswith("#") for style in styles)
+
+
+def test_the_page_says_what_was_found(mapped):
+    run = mapped[1]
+    text = " ".join(page_of(run).words)
+    graph, metrics = read_graph_json(run / "graph.json"), RunFolder(run).read_metrics()
+    for extent in graph.extents:
+        assert extent.name in text
+        assert f"{extent.area_m2:.1f} m²" in text
+    assert f"ATE {metrics['ate_rmse_m'] * 100:.2f} cm" in text
+    assert "Trajectory against the truth" in text
+    assert "Labels over time" in text
+    assert "[slam.features]" in text
+
+
+def test_the_floor_plan_is_a_picture_and_a_drawing(mapped):
+    run = mapped[1]
+    image = cv2.imread(str(run / "floorplan.png"))
+    assert image.shape[1] == 1100
+    assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
+    root = ET.parse(run / "floorplan.svg").getroot()
+    words = " ".join(element.text or "" for element in root.iter() if element.tag.endswith("text"))
+    for extent in read_graph_json(run / "graph.json").extents:
+        assert extent.name.replace("_", " ") in words
+    assert " m" in words
+
+
+def test_the_same_run_gives_the_same_drawing(mapped, tmp_path):
+    copy = tmp_path / "run"
+    shutil.copytree(mapped[1], copy)
+    write_report(RunFolder(copy))
+    for name in ("floorplan.svg", "floorplan.png"):
+        assert (copy / name).read_bytes() == (mapped[1] / name).read_bytes(), name
+
+
+def test_names_and_warnings_are_only_text(mapped, tmp_path):
+    copy = tmp_path / "run"
+    shutil.copytree(mapped[1], copy)
+    text = (copy / "metrics.json").read_text()
+    text = text.replace('"warnings": []', '"warnings": ["<script>alert(1)</script> & so"]')
+    (copy / "metrics.json").write_text(text)
+    write_report(RunFolder(copy))
+    assert "<script" not in (copy / "report.html").read_text()
+    assert any("<script>alert(1)</script> & so" in words for words in page_of(copy).words)
+
+
+def test_without_the_sequence_the_report_leaves_the_truth_out(mapped, tmp_path):
+    copy = tmp_path / "run"
+    shutil.copytree(mapped[1], copy)
+    (copy / "input.toml").write_text(f'sequence = "{tmp_path / "gone"}"\n')
+    write_report(RunFolder(copy))
+    assert "Trajectory against the truth" not in " ".join(page_of(copy).words)
+
+
+def test_no_report_leaves_it_out(rendered_walk, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    flags = ("--no-rrd", "--no-report", "--quiet", "--frames", "4")
+    assert roomgraph(monkeypatch, "run", rendered_walk, "-o", out, *flags) == 0
+    assert not (out / "report.html").exists() and not (out / "floorplan.png").exists()
+
+
+def test_thumbnails_come_back(tmp_path, rng):
+    path = tmp_path / "thumbnails.zip"
+    writer = ThumbnailWriter(path)
+    writer.add(3, rng.integers(0, 255, (48, 64, 3)).astype(np.uint8))
+    writer.add(11, np.zeros((48, 64, 3), np.uint8))
+    writer.close()
+    pictures = read_thumbnails(path)
+    assert sorted(pictures) == [3, 11]
+    assert cv2.imdecode(np.frombuffer(pictures[11], np.uint8), 1).shape == (144, 192, 3)
+    assert read_thumbnails(tmp_path / "none.zip") == {}
+    path.write_bytes(path.read_bytes()[:100])
+    with pytest.raises(AppError, match="thumbnails"):
+        read_thumbnails(path)

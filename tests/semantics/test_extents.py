@@ -1,0 +1,153 @@
+"""Places' floors and doorways, from rooms of boxes that a camera looked at."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from semantics.extents import ExtentSettings, Vote, with_extents
+from semantics.graph import GraphNode, SemanticGraph
+from semantics.labels import LabelSpace
+from semantics.topology_evaluation import (
+    evaluate_doorways,
+    evaluate_extents,
+    largest_error,
+)
+from slam.ground import Ground
+from slam.occupancy import occupancy
+from slam.space import SpaceSettings, carve
+from slam.survey import Survey
+from tests.slam.scene import NOISE, around, box_room, keyframes
+
+LABELS = LabelSpace.of(["corridor", "kitchen", "office"])
+SETTINGS = ExtentSettings()
+# Two offices on both sides of a corridor that one can see through, and walk through.
+OFFICE = box_room(0, 0, 3, 3, [("e", 1.0, 1.9)])
+HALL = box_room(3.1, 0, 5.1, 5, [("w", 1.0, 1.9), ("e", 3.0, 3.9)])
+OTHER = box_room(5.2, 2, 8.2, 5, [("w", 3.0, 3.9)])
+SPOTS = {"office1": (1.5, 1.5), "corridor1": (4.1, 2.5), "office2": (6.7, 3.5)}
+WALK = [
+    (1.5, 1.5, "office"), (2.6, 1.45, "office"), (3.6, 1.45, "corridor"), (4.1, 2.5, "corridor"),
+    (4.6, 3.45, "corridor"), (5.8, 3.45, "office"), (6.7, 3.5, "office"), (4.1, 3.4, "corridor"),
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def surveyed():
+    rng = np.random.default_rng(5)
+    cameras = [T for x, y, _ in WALK for T in around(x, y, 1.2, 10, 10)]
+    return survey_of(OFFICE + HALL + OTHER, cameras, rng)
+
+
+def survey_of(boxes, cameras, rng):
+    made, T_map = keyframes(boxes, cameras, np.eye(4), rng, with_planes=False)
+    settings, ground = SpaceSettings(), Ground(np.eye(4), True, True, True)
+    space = carve(made, T_map, ground, settings, NOISE)
+    path = np.array([T[:3, 3] for T in cameras])
+    grid = occupancy(space, np.eye(4), settings, path)
+    return Survey(ground, space, grid, tuple(range(len(made))), path, ())
+
+
+def graph_of(walk, place=lambda label: f"{label}1"):
+    nodes = tuple(
+        GraphNode(
+            i, i, float(i), np.array([x, y, 1.2]), label, LABELS.id_of(label), place(label), 0.8,
+            np.empty(0),
+        )
+        for i, (x, y, label) in enumerate(walk)
+    )  # fmt: skip
+    return SemanticGraph(LABELS, nodes, ())
+
+
+def votes_of(graph):
+    return [Vote(n.frame, n.position_world, n.label, n.score) for n in graph.nodes]
+
+
+def found_in(surveyed, walk=WALK, settings=SETTINGS):
+    graph = graph_of(walk)
+    return with_extents(graph, surveyed, votes_of(graph), settings)
+
+
+def test_rooms_have_their_floor_and_doors_join_them(surveyed):
+    graph = found_in(surveyed)
+    areas = {extent.name: extent.area_m2 for extent in graph.extents}
+    assert areas == pytest.approx({"office1": 9.0, "corridor1": 10.0, "office2": 9.0}, rel=0.1)
+    doors = {door.places: door for door in graph.doorways}
+    assert set(doors) == {("office1", "corridor1"), ("corridor1", "office2")}
+    first = doors["office1", "corridor1"]
+    assert first.position_map == pytest.approx([3.05, 1.45], abs=0.15)
+    assert first.width_m == pytest.approx(0.9, abs=0.12)
+    for extent in graph.extents:
+        assert extent.score == pytest.approx(0.8)
+        x, y = extent.polygon_map.T
+        shoelace = 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
+        assert shoelace == pytest.approx(extent.area_m2, rel=0.05)
+        assert np.all(np.abs(extent.centre_map - SPOTS[extent.name]) < 0.8)
+
+
+def test_two_offices_side_by_side_are_two_though_the_path_took_them_for_one(surveyed):
+    # `graph_of` calls both office1.
+    places = [node.place for node in found_in(surveyed).nodes]
+    assert places == [*["office1"] * 2, *["corridor1"] * 3, *["office2"] * 2, "corridor1"]
+
+
+def test_a_room_seen_through_a_door_is_not_where_the_camera_is(surveyed):
+    walk = [(x, y, "office" if i == 4 else label) for i, (x, y, label) in enumerate(WALK)]
+    graph = found_in(surveyed, walk)
+    assert graph.nodes[4].place == "corridor1"
+    assert graph.nodes[4].label == "corridor"
+    assert graph.nodes[4].label_id == LABELS.id_of("corridor")
+
+
+def test_an_open_plan_is_parted_between_its_labels(surveyed):
+    walk = [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), (2.4, 2.0, "office"), *WALK[1:]]
+    graph = found_in(surveyed, walk)
+    assert [n.place for n in graph.nodes[:4]] == ["kitchen1", "kitchen1", "office1", "office1"]
+    areas = {extent.name: extent.area_m2 for extent in graph.extents}
+    assert areas["kitchen1"] + areas["office1"] == pytest.approx(9.0, rel=0.1)
+    assert ("kitchen1", "office1") in {door.places for door in graph.doorways}
+
+
+def test_without_labels_there_are_rooms(surveyed):
+    walk = [(x, y, "unknown") for x, y, _ in WALK]
+    graph = found_in(surveyed, walk)
+    assert graph.places == ("room1", "room2", "room3")
+    assert {extent.score for extent in graph.extents} == {0.0}
+
+
+def test_nodes_of_another_sub_map_keep_a_place_of_their_own(surveyed):
+    graph = graph_of(WALK)
+    votes = [vote for vote in votes_of(graph) if vote.frame < 5]
+    found = with_extents(graph, surveyed, votes, SETTINGS)
+    elsewhere = {node.place for node in found.nodes[5:]}
+    assert elsewhere.isdisjoint({node.place for node in found.nodes[:5]})
+
+
+def test_a_way_that_nobody_looked_along_is_still_a_doorway():
+    rng = np.random.default_rng(2)
+    cameras = [*around(1.5, 1.5, count=10), *around(6.7, 3.5, count=10)]
+    apart = survey_of(OFFICE + OTHER, cameras, rng)
+    graph = found_in(apart, [(1.5, 1.5, "office"), (6.7, 3.5, "kitchen")])
+    assert [door.places for door in graph.doorways] == [("office1", "kitchen1")]
+    assert graph.doorways[0].width_m is None
+
+
+def test_an_empty_graph_stays_as_it_is(surveyed):
+    empty = SemanticGraph(LABELS, (), ())
+    assert with_extents(empty, surveyed, [], SETTINGS) is empty
+
+
+def test_precision_and_recall_of_places_and_doorways(surveyed):
+    graph = found_in(surveyed)
+    matches = {"a": "office1", "hall": "corridor1", "b": "office2"}
+    places, errors = evaluate_extents(graph, {"a": 9, "hall": 10, "b": 9, "attic": 5}, matches)
+    assert (places.precision, places.recall) == (1.0, 0.75)
+    assert largest_error(errors) < 0.1 and set(errors) == set(matches)
+    doors = evaluate_doorways(graph, [("a", "hall"), ("hall", "b"), ("b", "attic")], matches)
+    assert (doors.precision, doors.recall) == (1.0, pytest.approx(2 / 3))
+    wrong = replace(graph.doorways[0], places=("office1", "office2"))
+    doors = evaluate_doorways(replace(graph, doorways=(wrong,)), [("a", "hall")], matches)
+    assert (doors.precision, doors.recall) == (0.0, 0.0)
+    nothing = evaluate_doorways(replace(graph, doorways=()), [], {})
+    assert np.isnan(nothing.precision) and np.isnan(nothing.recall)
+    assert np.isnan(largest_error({}))
