@@ -66,6 +66,8 @@ class FrameLabel:
         Mean over the frames that voted, by label id; empty where none did.
     voters : tuple of int
         The indices of the frames that voted for the label.
+    words : tuple of (int, float)
+        The visual words that spoke most for it in the nearest of those, see `PlacePrediction`.
     """
 
     tracking: Tracking
@@ -76,6 +78,7 @@ class FrameLabel:
     histogram: NDArray[np.float64]
     probabilities: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
     voters: tuple[int, ...] = ()
+    words: tuple[tuple[int, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,9 +208,11 @@ class PlaceLabeller:
             votes = np.bincount([v.prediction.label_id for v in voters], minlength=len(mean))
             winner = int(np.lexsort((mean, votes))[-1])
         assert self.model is not None
+        own_voters = [v for v in voters if v.prediction.label_id == winner]
         return FrameLabel(
             tracking, self.model.labels.names[winner], winner, float(mean[winner]), raw, histogram,
-            mean, tuple(sorted(v.frame for v in voters if v.prediction.label_id == winner)),
+            mean, tuple(sorted(v.frame for v in own_voters)),
+            own_voters[0].prediction.words if own_voters else (),
         )  # fmt: skip
 
     def _filtered(self, order: int) -> NDArray[np.float64]:

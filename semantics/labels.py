@@ -99,6 +99,19 @@ class LabelSpace:
             raise SemanticsError("no such label", expected=", ".join(self.names), got=repr(name))
         return self.names.index(name)
 
+    def with_label(self, name: str) -> LabelSpace:
+        """Return the label space with one more label at its end, or itself if it has that one.
+
+        The others keep their ids and colours.
+        """
+        if name in self.names:
+            return self
+        (colour,) = LabelSpace.of([name]).colours[1:]
+        taken = list(self.colours)
+        return LabelSpace(
+            (*self.names, name), (*taken, colour if colour not in taken else _new_colour(taken))
+        )
+
     @property
     def palette(self) -> NDArray[np.uint8]:
         """The colours as an array (n_labels, 3), row = id."""

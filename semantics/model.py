@@ -18,6 +18,26 @@ from semantics.histogram import BagOfFeatures, Normalisation, normalise
 from semantics.labels import UNKNOWN, LabelSpace
 from slam.features import Features, FeatureSettings
 
+# Words named as having spoken for a label.
+_WORDS = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Lessons:
+    """What a model was learned from, as its classifier sees it, to learn more beside it later.
+
+    Attributes
+    ----------
+    vectors : (N, L) float16
+        What the classifier saw.
+    labels, groups : (N,) str
+        The class of each, and what it was seen together with.
+    """
+
+    vectors: NDArray[np.float16]
+    labels: NDArray[np.str_]
+    groups: NDArray[np.str_]
+
 
 @dataclass(frozen=True, slots=True)
 class PlacePrediction:
@@ -35,6 +55,9 @@ class PlacePrediction:
         The appearance-based histogram, of unit length (the visual memory of section 3.3).
     familiarity : float
         Largest probability that any single machine gives, 0 to 1: low where nothing fits.
+    words : tuple of (int, float)
+        The visual words that spoke most for the label, and by how much of the margin over the
+        mean of the other classes; the strongest first.
     """
 
     label: str
@@ -43,6 +66,7 @@ class PlacePrediction:
     probabilities: NDArray[np.float64]
     histogram: NDArray[np.float64]
     familiarity: float = 0.0
+    words: tuple[tuple[int, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +97,8 @@ class PlaceModel:
     transitions : (K, K) float64
         Chance of each class (column) after leaving a class (row), in the order of the labels
         without ``unknown``; even where the training data were no walks.
+    lessons : Lessons or None
+        A part of the training data, so that another class can be taken in.
     """
 
     labels: LabelSpace
@@ -85,6 +111,7 @@ class PlaceModel:
     encoder: FisherEncoder | None = None
     reject_below: float = 0.0
     transitions: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    lessons: Lessons | None = None
 
     def __post_init__(self) -> None:
         if not self.transitions.size:
@@ -140,8 +167,19 @@ class PlaceModel:
         label_id = ids[int(margins.argmax())]
         return PlacePrediction(
             self.labels.names[label_id], label_id, float(probabilities[label_id]),
-            probabilities, memory, familiarity,
+            probabilities, memory, familiarity, self._words(vector, int(margins.argmax())),
         )  # fmt: skip
+
+    def _words(self, vector: NDArray[Any], winner: int) -> tuple[tuple[int, float], ...]:
+        """Return the words that spoke most for a class against the mean of the others."""
+        coef = self.classifier.coef_
+        others = (coef.sum(axis=0) - coef[winner]) / (len(coef) - 1)
+        share = (coef[winner] - others) * vector
+        if self.encoder is not None:
+            # Mean and width of each word, each of several numbers.
+            share = share.reshape(2, self.encoder.n_words, -1).sum(axis=(0, 2))
+        top = np.argsort(-share)[:_WORDS]
+        return tuple((int(word), float(share[word])) for word in top if share[word] > 0)
 
     def _counts(self, descriptors: NDArray[Any]) -> NDArray[np.float64]:
         if len(descriptors) < self.min_features:
@@ -154,6 +192,13 @@ class PlaceModel:
                 expected=f"those of {self.features.detector}", got=str(error),
                 hint="run with the feature settings that the model was trained with",
             ) from error  # fmt: skip
+
+    def vector(
+        self, features: Features | NDArray[Any], colour: NDArray[np.uint8] | None = None
+    ) -> NDArray[Any] | None:
+        """Return what the classifier sees of an image (see `predict`), None if too little."""
+        descriptors = features.descriptors if isinstance(features, Features) else features
+        return self._vector(self._counts(descriptors), colour)
 
     def _vector(
         self, counts: NDArray[np.float64], colour: NDArray[np.uint8] | None

@@ -20,7 +20,7 @@ from semantics.fisher import ARRAYS as ENCODER_ARRAYS
 from semantics.fisher import FisherEncoder
 from semantics.histogram import BagOfFeatures, Normalisation
 from semantics.labels import LabelSpace
-from semantics.model import PlaceModel
+from semantics.model import Lessons, PlaceModel
 from semantics.neural_gas import NeuralGas
 from slam.features import FeatureSettings
 
@@ -100,6 +100,10 @@ def _arrays(model: PlaceModel) -> dict[str, NDArray[Any]]:
         "scaling": model.classifier.scaling_,
         "transitions": model.transitions,
     }
+    if model.lessons is not None:
+        arrays["lesson_vectors"] = model.lessons.vectors
+        arrays["lesson_labels"] = model.lessons.labels
+        arrays["lesson_groups"] = model.lessons.groups
     if model.encoder is not None:
         arrays |= {PREFIX + name: array for name, array in model.encoder.arrays.items()}
     return arrays
@@ -129,7 +133,18 @@ def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceMod
         encoder,
         float(content["reject_below"]),
         arrays["transitions"],
+        _lessons(arrays),
     )
+
+
+def _lessons(arrays: dict[str, NDArray[Any]]) -> Lessons | None:
+    if "lesson_vectors" not in arrays:
+        return None
+    names = ("lesson_vectors", "lesson_labels", "lesson_groups")
+    vectors, labels, groups = (arrays[name] for name in names)
+    if vectors.shape != (len(labels), arrays["coef"].shape[1]) or len(groups) != len(labels):
+        raise ValueError(f"lessons of shape {vectors.shape}")
+    return Lessons(vectors, labels, groups)
 
 
 def _encoder(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> FisherEncoder | None:

@@ -24,7 +24,7 @@ from semantics.filter import count_transitions
 from semantics.fisher import FisherEncoder
 from semantics.histogram import BagOfFeatures, Normalisation, normalise
 from semantics.labels import UNKNOWN, LabelSpace
-from semantics.model import PlaceModel
+from semantics.model import Lessons, PlaceModel
 from semantics.neural_gas import NeuralGas
 from slam.features import FeatureSettings
 
@@ -69,6 +69,10 @@ class TrainingSettings(Settings):
     reject: float = Field(
         0.01, ge=0, lt=1,
         description="share of held-out images that may be called unknown to keep strange ones out",
+    )  # fmt: skip
+    lessons: int = Field(
+        100, ge=0,
+        description="images of each label kept in the model, so that it can take in others later",
     )  # fmt: skip
     fisher: FisherSettings = FisherSettings()
 
@@ -174,11 +178,9 @@ def learn(
     sample = _sample([d.descriptors for d in usable], settings.max_descriptors, random)
     gas = NeuralGas(settings.n_words, settings.n_epochs, random_state=random).fit(sample)
     bag, encoder = BagOfFeatures(gas), _learn_encoder(usable, settings, random)
-    classifier = PlaceClassifier(settings.C, random_state=random).fit(
-        vectors_of(usable, bag, encoder, settings),
-        [d.example.label for d in usable],
-        _groups(usable),
-    )
+    vectors, groups = vectors_of(usable, bag, encoder, settings), _groups(usable)
+    truth = [d.example.label for d in usable]
+    classifier = PlaceClassifier(settings.C, random_state=random).fit(vectors, truth, groups)
     unreadable = sum(described is None for described in found)
     summary = TrainingSummary(
         dict(sorted(images.items())), unreadable, len(found) - len(usable) - unreadable,
@@ -190,6 +192,7 @@ def learn(
         labels, bag, classifier, features, settings.normalisation, settings.min_features,
         asdict(summary), encoder, threshold(classifier, settings.reject),
         count_transitions(walks_of(usable), labels.names[1:]),
+        _lessons(vectors, truth, groups, settings.lessons),
     )  # fmt: skip
 
 
@@ -214,6 +217,22 @@ def vectors_of(
 def is_usable(image: Described, settings: TrainingSettings) -> bool:
     """Whether there is enough in an image to learn from it."""
     return len(image.descriptors) >= settings.min_features
+
+
+def _lessons(
+    vectors: NDArray[Any], truth: Sequence[str], groups: Sequence[str], most: int
+) -> Lessons | None:
+    """Return at most so many of each label, evenly spread."""
+    if not most:
+        return None
+    labels = np.array(truth)
+    rows = [np.flatnonzero(labels == name) for name in np.unique(labels)]
+    kept = np.sort(
+        np.concatenate(
+            [own[np.linspace(0, len(own) - 1, min(most, len(own))).astype(int)] for own in rows]
+        )
+    )
+    return Lessons(vectors[kept].astype(np.float16), labels[kept], np.array(groups)[kept])
 
 
 def _check_labels(images: Counter[str]) -> None:
