@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +41,11 @@ class AppSettings(Settings):
     checks: CheckSettings = CheckSettings()
 
 
-def load_settings(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> AppSettings:
+def load_settings(
+    path: Path | None = None,
+    flags: Mapping[str, Any] | None = None,
+    only: Collection[str] | None = None,
+) -> AppSettings:
     """Return the settings of a TOML file under those given as flags.
 
     Parameters
@@ -50,6 +54,8 @@ def load_settings(path: Path | None = None, flags: Mapping[str, Any] | None = No
         A file like `roomgraph config` prints; what it leaves out keeps its default.
     flags : mapping, optional
         Values by dotted name (``"slam.max_depth_m"``); None means not given.
+    only : collection of str, optional
+        Dotted names of what is read of the file: a run made by another version may have others.
 
     Raises
     ------
@@ -65,6 +71,8 @@ def load_settings(path: Path | None = None, flags: Mapping[str, Any] | None = No
                 "settings cannot be read", where=path, expected="a TOML file", got=str(error),
                 hint="`roomgraph config` prints one to start from",
             ) from error  # fmt: skip
+    if only is not None:
+        values = _chosen(values, only)
     for name, value in (flags or {}).items():
         if value is not None:
             _set(values, name.split("."), value)
@@ -109,6 +117,18 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
         inner = f"{table}.{name}" if table else name
         lines += ["", f"[{inner}]"]
         _comment(lines, part, inner)
+
+
+def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
+    """Return only the named values and tables, where they are there."""
+    chosen: dict[str, Any] = {}
+    for name in names:
+        found: Any = values
+        for part in name.split("."):
+            found = found.get(part) if isinstance(found, dict) else None
+        if found is not None:
+            _set(chosen, name.split("."), found)
+    return chosen
 
 
 def _set(values: dict[str, Any], names: list[str], value: Any) -> None:

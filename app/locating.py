@@ -25,6 +25,11 @@ from slam.view import see
 
 # By looks alone, a place is named only if it has more than this share of what looks alike.
 _MAJORITY = 0.5
+# Of a run's settings: those that its keyframes were made with, and images are compared with.
+_NEEDED = (
+    "seed", "slam.max_depth_m", "slam.features", "slam.noise", "slam.motion", "slam.tracker",
+    "slam.appearance",
+)  # fmt: skip
 # Poses this near to each other are one answer.
 _SAME_POSE_M = 0.5
 
@@ -67,7 +72,7 @@ class Locator:
     """
 
     def __init__(self, folder: RunFolder) -> None:
-        settings = load_settings(folder.existing(folder.config))
+        settings = load_settings(folder.existing(folder.config), only=_NEEDED)
         slam = settings.slam
         self.graph = read_graph_json(folder.existing(folder.graph_json))
         self._memory = read_memory(folder.existing(folder.memory))

@@ -59,7 +59,9 @@ def _mesh(folder: RunFolder, T_mesh_world: NDArray[np.float64]) -> Any:
             "the map has no normals to draw a surface by", where=folder.map,
             hint="map the sequence again with `roomgraph run`",
         )  # fmt: skip
-    voxel_m = load_settings(folder.existing(folder.config)).slam.map.voxel_m
+    voxel_m = load_settings(
+        folder.existing(folder.config), only=["slam.map.voxel_m"]
+    ).slam.map.voxel_m
     mesh = mesh_from_points(points, normals, colours, voxel_m)
     return trimesh.Trimesh(
         poses.transform(T_mesh_world, mesh.vertices), mesh.triangles,

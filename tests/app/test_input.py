@@ -4,6 +4,7 @@ import shutil
 
 import pytest
 
+from app.config import AppSettings, load_settings
 from app.errors import AppError
 from app.input import InputOptions, read_input, write_input
 from app.run_folder import RunFolder
@@ -45,3 +46,13 @@ def test_watching_without_a_display_leaves_nothing_behind(rendered_walk, tmp_pat
     arguments = ("run", rendered_walk, "-o", tmp_path / "out", "-v", "--quiet")
     assert roomgraph(monkeypatch, *arguments) == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_settings_of_another_version_do_not_keep_a_run_from_being_read(tmp_path):
+    path = tmp_path / "config.toml"
+    path.write_text("seed = 4\n[slam.features]\nmax_features = 77\n[slam.bygone]\nsize = 1\n")
+    with pytest.raises(AppError, match="bygone"):
+        load_settings(path)
+    settings = load_settings(path, only=["seed", "slam.features", "slam.noise", "seed.none"])
+    assert (settings.seed, settings.slam.features.max_features) == (4, 77)
+    assert settings.slam.noise == AppSettings().slam.noise
