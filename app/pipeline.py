@@ -22,6 +22,7 @@ from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
 from semantics.extents import Vote, with_extents
+from semantics.floor import places_at
 from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel, PlaceLabeller
 from semantics.labels import UNKNOWN, LabelSpace
@@ -170,11 +171,11 @@ class Pipeline:
         keyframes = self.slam.keyframes
         with self.clock.stage("map"):
             points = self.slam.build_map()
-        view = self._map_view(points)
         with self.clock.stage("survey"):
             surveyed = self._survey()
         with self.clock.stage("extents"):
             graph = self._final_graph(surveyed)
+            view = self._map_view(points, graph)
         trajectory = self._trajectory()
         with self.clock.stage("write"):
             self.recorder.write_trajectory(trajectory)
@@ -233,7 +234,7 @@ class Pipeline:
         stamps = np.array([stamp for stamp, _ in tracked])
         return Trajectory(stamps, np.array([T for _, T in tracked]).reshape(-1, 4, 4))
 
-    def _map_view(self, points: PointMap) -> MapView:
+    def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
         keyframe_poses = self.slam.keyframe_poses
         positions = {key: T[:3, 3] for key, T in keyframe_poses.items()}
         links = self.slam.mapper.graph.links
@@ -241,18 +242,27 @@ class Pipeline:
         loops = np.array([link.is_loop for link in links], dtype=bool)
         ends = ends.reshape(-1, 2, 3)
         return MapView(
-            points, self._label_ids(points), np.array(list(positions.values())).reshape(-1, 3),
+            points, self._label_ids(points, graph),
+            np.array(list(positions.values())).reshape(-1, 3),
             ends[~loops], ends[loops], self._trajectory().positions,
         )  # fmt: skip
 
-    def _label_ids(self, points: PointMap) -> NDArray[np.uint16]:
-        """Give each map point the label of the keyframe that saw it best."""
+    def _label_ids(self, points: PointMap, graph: SemanticGraph | None) -> NDArray[np.uint16]:
+        """Give each map point the label of the place it lies in, else of the keyframe that saw it.
+
+        Without a place's extent, what is seen through a door bears the label of this side of it.
+        """
         of_keyframe = np.zeros(len(self.slam.keyframes) + 1, dtype=np.uint16)
         for label in self._labelled:
             tracking = label.tracking
             if tracking.is_keyframe and tracking.anchor is not None:
                 of_keyframe[tracking.anchor.keyframe] = label.label_id
-        return of_keyframe[points.keyframes]
+        seen_from = of_keyframe[points.keyframes]
+        if graph is None or not graph.extents:
+            return seen_from
+        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
+        place = places_at(graph, points.points_world)
+        return np.where(place >= 0, of_extent[place], seen_from)
 
     def _session(self) -> SessionView:
         truth = self.sequence.ground_truth

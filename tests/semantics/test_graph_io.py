@@ -33,7 +33,7 @@ def graph():
     square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 2.5]])
     extents = (
         Extent("corridor1", "corridor", 1, 0.75, square, 5.0, np.array([1.0, 1.25])),
-        Extent("office1", "office", 3, 0.5, square + np.array([2.1, 0]), 5.0, np.array([3.1, 1.25])),
+        Extent("office1", "office", 3, 0.5, square * [1, 2], 10.0, np.array([1.0, 2.5])),
     )
     doorways = (
         Doorway(("corridor1", "office1"), np.array([2.05, 1.0]), 0.9),
