@@ -184,5 +184,6 @@ def _extended(transitions: NDArray[np.float64], count: int) -> NDArray[np.float6
     if len(transitions) == count:
         return transitions
     table = np.full((count, count), 1.0 / max(1, count - 1))
+    table[-1, -1] = 0.0
     table[:-1, :-1] = transitions * (count - 2) / max(1, count - 1)
     return table

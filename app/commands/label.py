@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from app import options
+
+if TYPE_CHECKING:
+    from app.console import Terminal
 
 
 def label(
@@ -17,7 +20,20 @@ def label(
     ],
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="CSV", help="Table item,label,score,truth."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="PATH",
+            help="Table item,label,score,truth (CSV); with --set, the folder of the new model.",
+        ),
+    ] = None,
+    changes: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="PLACE=LABEL",
+            help="DATA is a run: say what a place is; -o writes the model that learned it.",
+        ),
     ] = None,
     dataset: options.DatasetOption = None,
     camera: options.CameraOption = None,
@@ -30,11 +46,16 @@ def label(
 
     Images are labelled one by one; the frames of a sequence by majority vote of their neighbours.
 
+    With --set, DATA is the folder of a run: its graph is corrected, the places' neighbours are
+    inferred again, and with -o the model learns what the places look like, be they new to it.
+
     Examples:
 
       roomgraph label places photos/test -o labels.csv
 
       roomgraph label places my_recording
+
+      roomgraph label places out --set office2=library -o places_corrected
     """
     from app.config import load_settings
     from app.console import Terminal
@@ -43,6 +64,8 @@ def label(
     from semantics.model_io import load_model
 
     terminal = Terminal(quiet, verbose)
+    if changes:
+        return _correct(model, data, changes, output, overwrite, terminal)
     if output is not None:
         refuse_existing(output, overwrite)
     vote = load_settings(config).semantics.labeller
@@ -57,3 +80,31 @@ def label(
     elif output is None:
         for item in items:
             terminal.say(f"{item.name}  {item.label}  {item.score:.2f}")
+
+
+def _correct(
+    model: Path,
+    run: Path,
+    texts: list[str],
+    output: Path | None,
+    overwrite: bool,
+    terminal: Terminal,
+) -> None:
+    from app.correcting import correct_run, describe_correction, learn_from_run, parse_changes
+    from app.run_folder import RunFolder, refuse_existing
+    from semantics.model_io import load_model, save_model
+
+    changes = parse_changes(texts)
+    if output is not None:
+        refuse_existing(output, overwrite)
+    known = load_model(model)
+    folder = RunFolder(run)
+    corrections = correct_run(folder, changes)
+    for place, correction in zip(changes, corrections, strict=True):
+        terminal.say(describe_correction(correction, place))
+    if output is None:
+        return
+    with terminal.progress("Learning the corrected places") as advance:
+        learned = learn_from_run(known, folder, corrections, 0, advance)
+    save_model(output, learned, overwrite)
+    terminal.say(f"Model that knows {', '.join(learned.labels.names[1:])} written to {output}")
