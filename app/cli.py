@@ -16,6 +16,7 @@ from app.commands.export import export
 from app.commands.label import label
 from app.commands.locate import locate
 from app.commands.places import places
+from app.commands.report import report
 from app.commands.route import route
 from app.commands.run import run
 from app.commands.synth import synth
@@ -81,6 +82,7 @@ for _command in (
     train,
     label,
     view,
+    report,
     export,
     places,
     route,

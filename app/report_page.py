@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from app.charts import error_chart, label_chart
-from app.config import AppSettings, load_settings
+from app.config import AppSettings
 from app.errors import AppError
 from app.floorplan import draw_floor_plan, save_floor_plan
 from app.occupancy_io import read_occupancy
@@ -22,7 +23,6 @@ from datasets.errors import RoomgraphError
 from datasets.files import write_text
 from datasets.places import PlaceTruth
 from datasets.sequence import Sequence as FrameSequence
-from datasets.settings import Settings
 from datasets.trajectory import Trajectory
 from semantics.graph import SemanticGraph
 from semantics.graph_io import read_graph_json
@@ -59,8 +59,8 @@ def write_report(folder: RunFolder, sequence: FrameSequence | None = None) -> No
             metrics, trajectory, None if sequence is None else sequence.ground_truth
         ),
         "stages": _stages(metrics),
-        "settings": folder.config.read_text(encoding="utf-8"),
-        "changed": _changed(load_settings(folder.config), AppSettings()),
+        "settings": (settings := folder.config.read_text(encoding="utf-8")),
+        "changed": _changed(settings),
         "files": ", ".join(sorted(path.name for path in folder.root.iterdir())),
     }  # fmt: skip
     environment = Environment(
@@ -244,16 +244,25 @@ def _stages(metrics: Mapping[str, Any]) -> list[dict[str, str]]:
     ]  # fmt: skip
 
 
-def _changed(settings: Settings, default: Settings, table: str = "") -> list[tuple[str, str]]:
-    """Return dotted names and values of the settings that are not as by default."""
-    found = []
-    for name in type(settings).model_fields:
-        value, usual = getattr(settings, name), getattr(default, name)
-        if isinstance(value, Settings) and isinstance(usual, Settings):
-            found += _changed(value, usual, f"{table}{name}.")
-        elif value != usual:
-            found.append((f"{table}{name}", str(value)))
-    return found
+def _changed(text: str) -> list[tuple[str, str]]:
+    """Return dotted names and values of the settings in TOML that are not as by default."""
+    usual = _flat(AppSettings().model_dump(mode="json", exclude_none=True))
+    return [
+        (name, str(value))
+        for name, value in _flat(tomllib.loads(text)).items()
+        if usual.get(name) != value
+    ]
+
+
+def _flat(values: Mapping[str, Any], table: str = "") -> dict[str, Any]:
+    """Return nested settings under their dotted names."""
+    flat: dict[str, Any] = {}
+    for name, value in values.items():
+        if isinstance(value, Mapping):
+            flat |= _flat(value, f"{table}{name}.")
+        else:
+            flat[f"{table}{name}"] = value
+    return flat
 
 
 def _hex(graph: SemanticGraph, label_id: int) -> str:

@@ -112,8 +112,9 @@ def find_ground(
     surfaces = _surfaces(kept, T_world_keyframe)
     level = _vertical(surfaces, held, settings)
     up = held if level is None else level
-    floor = _floor(surfaces, kept, T_world_keyframe, up, settings)
-    height = floor if floor is not None else _lowest(kept, T_world_keyframe, up)
+    seen = _heights(kept, T_world_keyframe, up)
+    floor = _floor(surfaces, T[:, :3, 3], seen, up, settings)
+    height = floor if floor is not None else _lowest(seen)
     walls = _wall_direction(surfaces, up, settings)
     along = _unit_across(T[0, :3, 2], up) if walls is None else walls
     along = _longest(along, up, T[:, :3, 3])
@@ -171,15 +172,13 @@ def _plumb_lines(surfaces: _Surfaces) -> FloatArray:
 
 def _floor(
     surfaces: _Surfaces,
-    keyframes: list[Keyframe],
-    T_world_keyframe: Mapping[int, FloatArray],
+    positions: FloatArray,
+    seen: FloatArray,
     up: FloatArray,
     settings: GroundSettings,
 ) -> float | None:
-    """Return the floor's height along `up`, metres from the world's origin."""
-    camera = float(np.median([T_world_keyframe[k.id][:3, 3] @ up for k in keyframes]))
-    top = camera - settings.min_drop_m
-    seen = _heights(keyframes, T_world_keyframe, up)
+    """Return the floor's height along `up` from heights seen (N,), metres; None without one."""
+    top = float(np.median(positions @ up)) - settings.min_drop_m
     is_level = surfaces.normals @ up > np.cos(np.radians(settings.tolerance_deg))
     planes = np.sort((surfaces.points @ up)[is_level])
     for height in [*planes, *_prominent(seen, settings.layer_m / 2)]:
@@ -218,12 +217,9 @@ def _heights(
     return np.concatenate(heights).astype(np.float64)
 
 
-def _lowest(
-    keyframes: list[Keyframe], T_world_keyframe: Mapping[int, FloatArray], up: FloatArray
-) -> float:
+def _lowest(seen: FloatArray) -> float:
     """Return the height of the lowest things seen, but for stray readings."""
-    heights = _heights(keyframes, T_world_keyframe, up)
-    return float(np.percentile(heights, 1)) if len(heights) else 0.0
+    return float(np.percentile(seen, 1)) if len(seen) else 0.0
 
 
 def _wall_direction(

@@ -106,13 +106,13 @@ def carve(
     is_hit = np.zeros(space.hits.size, dtype=bool)
     hits, passes = space.hits.reshape(-1), space.passes.reshape(-1)
     for keyframe in kept:
-        T = T_map_keyframe[keyframe.id]
-        sigma = noise.depth_sigma(keyframe.cloud[:, 2])
-        sure = keyframe.cloud[sigma <= space.cell_m / 2]
+        T, cloud = T_map_keyframe[keyframe.id], keyframe.cloud
+        sigma = noise.depth_sigma(cloud[:, 2])
+        sure = cloud[sigma <= space.cell_m / 2]
         hit = _once(_index(space, poses.transform(T, _behind(sure, space.cell_m / 2))), last)
         is_hit[hit] = True
         few = slice(keyframe.id % settings.ray_every, None, settings.ray_every)
-        samples = _samples(T, keyframe.cloud[few], 2 * sigma[few] + space.cell_m, space.cell_m)
+        samples = _samples(T, cloud[few], 2 * sigma[few] + space.cell_m, space.cell_m)
         passed = _once(_index(space, samples), last)
         hits[hit] += 1
         passes[passed[~is_hit[passed]]] += 1

@@ -17,8 +17,10 @@ import open3d as o3d
 from rerun.chunk import RrdReader
 
 REQUIRED = (
-    "trajectory.tum", "frames.csv", "keyframes.tum", "keyframes.npz", "pose_graph.g2o", "map.ply", "labels.json",
-    "graph.json", "graph.graphml", "metrics.json", "config.toml", "run.log", "recording.rrd",
+    "trajectory.tum", "frames.csv", "keyframes.tum", "keyframes.npz", "pose_graph.g2o", "map.ply",
+    "labels.json", "graph.json", "graph.graphml", "metrics.json", "config.toml", "run.log",
+    "recording.rrd", "map.pgm", "map.yaml", "thumbnails.zip", "floorplan.png", "floorplan.svg",
+    "report.html",
 )  # fmt: skip
 
 

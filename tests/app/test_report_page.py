@@ -117,6 +117,20 @@ def test_no_report_leaves_it_out(rendered_walk, tmp_path, monkeypatch):
     assert not (out / "report.html").exists() and not (out / "floorplan.png").exists()
 
 
+def test_the_report_command_makes_it_again(mapped, tmp_path, monkeypatch, capsys):
+    copy = tmp_path / "run"
+    shutil.copytree(mapped[1], copy)
+    (copy / "report.html").unlink()
+    config = (copy / "config.toml").read_text()
+    (copy / "config.toml").write_text(config.replace("seed = 0", "seed = 7\nfrom_a_newer = 1"))
+    assert roomgraph(monkeypatch, "report", copy) == 0
+    assert str(copy / "report.html") in capsys.readouterr().out
+    text = " ".join(page_of(copy).words)
+    assert "from_a_newer" in text and "Other than the defaults" in text
+    assert roomgraph(monkeypatch, "report", tmp_path) == 1
+    assert capsys.readouterr().err.startswith("roomgraph: ")
+
+
 def test_thumbnails_come_back(tmp_path, rng):
     path = tmp_path / "thumbnails.zip"
     writer = ThumbnailWriter(path)

@@ -1,0 +1,29 @@
+"""``roomgraph report``: make a run's report and floor plan again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app import options
+
+
+def report(
+    run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
+    quiet: options.QuietOption = False,
+) -> None:
+    """Make report.html and the floor plan of a run again, from the files in its folder.
+
+    Examples:
+
+      roomgraph report out
+    """
+    from app.console import Terminal
+    from app.report_page import write_report
+    from app.run_folder import RunFolder
+
+    folder = RunFolder(run)
+    write_report(folder)
+    Terminal(quiet).say(f"Report: {folder.report}")
