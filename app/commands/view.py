@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+HOST, WEB_PORT, DATA_PORT = "127.0.0.1", 9090, 9876
+
 
 def view(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
@@ -16,14 +18,14 @@ def view(
 ) -> None:
     """Open a run's recording in Rerun.
 
+    \b
     Examples:
-
       roomgraph view results/kitchen/latest
-
       roomgraph view out --web
-    """
+    """  # noqa: D301
     import subprocess
     import sys
+    from urllib.parse import quote
 
     from app.errors import AppError
     from app.run_folder import RunFolder
@@ -36,8 +38,14 @@ def view(
         )  # fmt: skip
     command = [sys.executable, "-m", "rerun", str(recording)]
     if web:
-        command += ["--web-viewer", "--bind", "127.0.0.1"]
-    status = subprocess.run(command, check=False).returncode
+        command += ["--web-viewer", "--bind", HOST, "--web-viewer-port", str(WEB_PORT)]
+        command += ["--port", str(DATA_PORT)]
+        source = quote(f"rerun+http://{HOST}:{DATA_PORT}/proxy", safe="")
+        typer.echo(f"Open http://{HOST}:{WEB_PORT}/?url={source} on this machine; Ctrl-C ends it")
+    try:
+        status = subprocess.run(command, check=False).returncode
+    except KeyboardInterrupt:
+        return
     if status:
         raise AppError(
             "the Rerun viewer did not start", where=recording, got=f"exit status {status}",
