@@ -32,8 +32,8 @@ logger = logging.getLogger(__name__)
 
 Progress = Callable[[int, int], None]
 
-# Dense descriptors of an image that the encoder is learned from.
-_DENSE_SAMPLE = 200
+# The encoder is learned from so many dense descriptors of an image, of so many images at most.
+_DENSE_SAMPLE, _DENSE_IMAGES = 200, 500
 
 
 class FisherSettings(Settings):
@@ -256,9 +256,10 @@ def _learn_encoder(
     if settings.encoding == "words":
         return None
     fisher = settings.fisher
-    most = max(1, settings.max_descriptors // len(images))
+    chosen = np.linspace(0, len(images) - 1, min(_DENSE_IMAGES, len(images))).astype(int)
+    most = max(1, settings.max_descriptors // len(chosen))
     parts = []
-    for image in images:
+    for image in (images[i] for i in chosen):
         found = _densely(image, fisher.dense)
         rows = random.integers(0, len(found), min(_DENSE_SAMPLE, most))
         parts.append((found.descriptors[rows], found.positions[rows]))
