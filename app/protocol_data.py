@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,21 +91,20 @@ class Describer:
             )  # fmt: skip
         return [described for described in found if described is not None]
 
-    def vectors(self, images: Sequence[Described]) -> NDArray[np.float64]:
+    def vectors(self, images: Sequence[Described]) -> NDArray[Any]:
         """Return what the classifier sees (N, D)."""
-        found = vectors_of(images, self.model.bag, self.model.encoder, self.settings)
-        return np.asarray(found, dtype=np.float64)
+        return vectors_of(images, self.model.bag, self.model.encoder, self.settings)
 
     def relearned(
-        self, images: Sequence[Described], groups: Sequence[str], seed: int
+        self, images: Sequence[Described], vectors: NDArray[Any], groups: Sequence[str], seed: int
     ) -> PlaceModel:
         """Return a model with the same words whose machines are learned from other images."""
         classifier = PlaceClassifier(self.settings.C, random_state=seed).fit(
-            self.vectors(images), [image.example.label for image in images], groups
+            vectors, [image.example.label for image in images], groups
         )
         labels = LabelSpace.of(image.example.label for image in images)
         return replace(
-            self.model, labels=labels, classifier=classifier,
+            self.model, labels=labels, classifier=classifier, lessons=None,
             reject_below=threshold(classifier, self.settings.reject),
             transitions=count_transitions(walks_of(images), labels.names[1:]),
         )  # fmt: skip
@@ -114,26 +114,41 @@ class Describer:
         none = np.zeros(model.bag.n_words)
         return [model.prediction(vector, none) for vector in self.vectors(images)]
 
-    def bench(self, walks: Sequence[Walk], stride: int) -> Bench:
-        """Return every `stride`-th image of the walks as the experiments take them.
+    def collect(self, walks: Sequence[Walk], stride: int) -> Collection:
+        """Return every `stride`-th image of the walks, described."""
+        chosen = [(walk, e) for walk in walks for e in walk.examples[::stride]]
+        images = self.describe([e for _, e in chosen], "Describing images")
+        of = {id(example): walk for walk, example in chosen}
+        where = [of[id(image.example)] for image in images]
+        return Collection(images, where, self.vectors(images), self.settings.C)
+
+
+@dataclass(frozen=True, slots=True)
+class Collection:
+    """Described images, the walk of each, and what the classifier sees of them (N, D)."""
+
+    images: list[Described]
+    walks: list[Walk]
+    vectors: NDArray[Any]
+    C: float
+
+    def bench(self) -> Bench:
+        """Return the images as the experiments take them.
 
         The vectors are turned onto the axes that they span, which changes no product of two and
         makes them shorter.
         """
-        chosen = [(walk, e) for walk in walks for e in walk.examples[::stride]]
-        images = self.describe([e for _, e in chosen], "Describing images")
-        names = {id(e): walk for walk, e in chosen}
-        where = [names[id(image.example)] for image in images]
+        examples = [image.example for image in self.images]
+        buildings = [walk.building for walk in self.walks]
+        rooms = [f"{b}/{e.place or e.group}" for b, e in zip(buildings, examples, strict=True)]
         return Bench(
-            turned(self.vectors(images)),
-            np.array([image.example.label for image in images]),
-            np.array([image.example.group for image in images]),
-            np.array(
-                [f"{w.building}/{_room(i.example)}" for w, i in zip(where, images, strict=True)]
-            ),
-            np.array([walk.building for walk in where]),
-            np.array([walk.light for walk in where]),
-            self.settings.C,
+            turned(np.asarray(self.vectors, dtype=np.float64)),
+            np.array([example.label for example in examples]),
+            np.array([example.group for example in examples]),
+            np.array(rooms),
+            np.array(buildings),
+            np.array([walk.light for walk in self.walks]),
+            self.C,
         )
 
 
@@ -155,7 +170,3 @@ def turned(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     values, axes = np.linalg.eigh(vectors @ vectors.T)
     kept = values > values[-1] * 1e-10
     return np.asarray(axes[:, kept] * np.sqrt(values[kept]))
-
-
-def _room(example: Example) -> str:
-    return example.place or example.group

@@ -15,6 +15,7 @@ from app.protocol_data import (
     SEEDS,
     STRIDE,
     WORD_SEED,
+    Collection,
     Describer,
     Walk,
     data_walks,
@@ -38,6 +39,7 @@ class Material:
 
     describer: Describer
     walks: list[Walk]
+    collection: Collection
     bench: Bench
     data: tuple[str, ...]
     notes: tuple[str, ...]
@@ -158,11 +160,11 @@ def _route(m: Material) -> ProtocolReport:
 
 def _model_without(m: Material, building: str) -> PlaceModel:
     """Return a model of all buildings but one; the words are those of the bench."""
-    known = [walk for walk in m.walks if walk.building != building]
-    chosen = [(w.building, e) for w in known for e in w.examples[::STRIDE]]
-    images = m.describer.describe([e for _, e in chosen], f"Learning all but {building}")
-    of = {id(example): name for name, example in chosen}
-    return m.describer.relearned(images, [of[id(image.example)] for image in images], m.seed)
+    kept = [i for i, walk in enumerate(m.collection.walks) if walk.building != building]
+    return m.describer.relearned(
+        [m.collection.images[i] for i in kept], m.collection.vectors[kept],
+        [m.collection.walks[i].building for i in kept], m.seed,
+    )  # fmt: skip
 
 
 PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
@@ -185,11 +187,13 @@ def _material(
         words = [e for w in rendered_walks((WORD_SEED,), terminal) for e in w.examples[::STRIDE]]
         note = WORDS_NOTE.format(f"building {WORD_SEED}")
     describer = Describer(preset, words, seed, terminal)
-    bench = describer.bench(walks, 1 if data else STRIDE)
+    collection = describer.collect(walks, 1 if data else STRIDE)
     names = tuple(str(root) for root in data) or tuple(
         f"rendered {name}" for name in dict.fromkeys(walk.building for walk in walks)
     )
-    return Material(describer, walks, bench, names, (note,), seed, terminal)
+    return Material(
+        describer, walks, collection, collection.bench(), names, (note,), seed, terminal
+    )
 
 
 def _train_and_test(preset: Preset, root: Path, seed: int, terminal: Terminal) -> ProtocolReport:
