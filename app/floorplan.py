@@ -19,7 +19,7 @@ from slam.occupancy import FREE, OCCUPIED, OccupancyGrid
 FloatArray = NDArray[np.float64]
 # For a page as wide as a phone: a figure of this width with this type is legible on one.
 WIDTH_INCHES = 5.0
-_LARGE, _SMALL = 10.0, 5.5
+_LARGE, _SMALL = 9.0, 5.0
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
 # What is occupied this near to a room's outline is its wall, further in it is furniture.
@@ -136,7 +136,7 @@ def _wall_direction(position: FloatArray, grid: OccupancyGrid) -> FloatArray:
 
 def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:
     """Write each place's name and area into it, as large as fits."""
-    ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.55}
+    ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
     for extent in graph.extents:
         name = extent.name.replace("_", " ")
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre

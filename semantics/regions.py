@@ -133,7 +133,11 @@ def segment(
     basins = _spread(basins, inside)
     merged = _merge(basins, peaks, width, votes, settings, space.cell_m)
     reach = max(1, round(settings.reach_m / space.cell_m))
-    grown = _spread(merged, ndimage.binary_dilation(inside, iterations=reach, mask=~wall))
+    # Up to walls, and not beyond where there is none in sight.
+    at_wall = ndimage.binary_dilation(wall, iterations=reach) & ~wall
+    grown = _spread(
+        merged, ndimage.binary_dilation(inside, iterations=reach, mask=at_wall | inside)
+    )
     kept = _without_small(_connected(grown), set(votes), settings, space.cell_m)
     return Regions(kept, _completed(kept, wall, settings, space.cell_m))
 
@@ -160,6 +164,7 @@ def _completed(
     fills nearly all of its rectangle gets the rest, too: that is a cupboard up to the ceiling.
     """
     side = max(1, round(settings.detail_m / cell_m))
+    reach = max(1, round(settings.reach_m / cell_m))
     square = np.ones((side, side), dtype=bool)
     result = np.zeros_like(regions)
     for region in (int(r) for r in np.unique(regions) if r):
@@ -173,7 +178,8 @@ def _completed(
         full = ndimage.binary_propagation(seen[window], mask=open_)
         full = ndimage.binary_fill_holes(_corners(full, seen[window]))
         mine = (regions[window] == 0) | (regions[window] == region)
-        if (full & mine).mean() >= settings.squareness:
+        # What the fronts of furniture and partitions take up is floor, too.
+        if (ndimage.binary_dilation(full, iterations=reach) & mine).mean() >= settings.squareness:
             full = np.ones_like(full)
         result[window][full & mine & (result[window] == 0)] = region
     return result
