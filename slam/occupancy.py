@@ -20,6 +20,9 @@ _NOISE_SHARE = 0.5
 # Who sees through this height, or the floor, knows that nothing stands there: a view over a
 # counter does not.
 _LOW_M = 0.6
+# Half the width of who carries the camera, at least; and the longest step between two keyframes.
+_BODY_M = 0.15
+_LONGEST_STEP_M = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,12 +78,30 @@ def occupancy(
     occupied = thinned(evidence)
     low = space.passes[space.layers(settings.min_height_m, _LOW_M)]
     seen = low.any(axis=0) | (space.hits[0] > 0) | (space.passes[0] > 0)
-    row, column = space.cells_of(path_map).T
-    seen[row, column] = True
+    seen |= _walked(space, path_map)
     cells = np.full(seen.shape, UNKNOWN, dtype=np.int8)
     cells[seen & (evidence == 0)] = FREE
     cells[occupied] = OCCUPIED
     return OccupancyGrid(cells, space.cell_m, space.origin_xy, T_map_world)
+
+
+def _walked(space: Space, path_map: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return the cells (R, C) that the camera's bearer took up on the way from point to point."""
+    walked = np.zeros(space.hits.shape[1:], dtype=bool)
+    if not len(path_map):
+        return walked
+    steps = np.linalg.norm(np.diff(path_map[:, :2], axis=0), axis=1)
+    # Over a longer step tracking was lost, or the path starts anew.
+    steps[steps > _LONGEST_STEP_M] = 0.0
+    counts = np.ceil(steps / space.cell_m).astype(int)
+    way = [path_map[-1:, :2]]
+    for start, end, count in zip(path_map[:-1, :2], path_map[1:, :2], counts, strict=True):
+        share = np.arange(max(1, count))[:, None] / max(1, count)
+        way.append(start + share * (end - start) * (count > 0))
+    row, column = space.cells_of(np.concatenate(way)).T
+    walked[row, column] = True
+    reach = ndimage.distance_transform_edt(~walked) * space.cell_m
+    return np.asarray(reach <= _BODY_M)
 
 
 def thinned(evidence: NDArray[np.float32]) -> NDArray[np.bool_]:
