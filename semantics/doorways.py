@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from semantics.graph import Doorway, GraphNode
-from semantics.regions import RegionImage, borders
+from semantics.watershed import RegionImage, borders
 from slam.occupancy import FREE
 from slam.survey import Survey
 

@@ -17,7 +17,8 @@ from datasets.settings import Settings
 from semantics.doorways import find_doorways
 from semantics.graph import Extent, GraphNode, SemanticGraph
 from semantics.labels import UNKNOWN
-from semantics.regions import RegionImage, Regions, RegionSettings, segment
+from semantics.regions import Regions, RegionSettings, segment
+from semantics.watershed import RegionImage
 from slam.survey import Survey
 
 FloatArray = NDArray[np.float64]

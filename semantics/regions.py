@@ -12,11 +12,15 @@ from pydantic import Field
 from scipy import ndimage
 
 from datasets.settings import Settings
+from semantics.watershed import (
+    NEIGHBOURS,
+    BoolImage,
+    RegionImage,
+    borders,
+    flood,
+    spread,
+)
 from slam.space import Space
-
-BoolImage = NDArray[np.bool_]
-RegionImage = NDArray[np.int32]
-_NEIGHBOURS = np.ones((3, 3), dtype=bool)
 
 
 class RegionSettings(Settings):
@@ -84,8 +88,8 @@ def interior(space: Space, settings: RegionSettings) -> tuple[BoolImage, BoolIma
     inside &= ~wall
     # A lintel hangs between walls; a lamp does not.
     held = ndimage.binary_propagation(
-        ndimage.binary_dilation(wall, _NEIGHBOURS, iterations=2) & lintel,
-        _NEIGHBOURS, mask=lintel,
+        ndimage.binary_dilation(wall, NEIGHBOURS, iterations=2) & lintel,
+        NEIGHBOURS, mask=lintel,
     )  # fmt: skip
     return _filled(inside, wall), wall, held & inside
 
@@ -97,7 +101,7 @@ def _filled(inside: BoolImage, wall: BoolImage) -> BoolImage:
     for i, window in enumerate(ndimage.find_objects(holes, count), 1):
         window = tuple(slice(max(0, s.start - 1), s.stop + 1) for s in window)
         hole = holes[window] == i
-        ring = ndimage.binary_dilation(hole, _NEIGHBOURS) & ~hole
+        ring = ndimage.binary_dilation(hole, NEIGHBOURS) & ~hole
         at_border = any(
             s.start == 0 or s.stop >= n for s, n in zip(window, inside.shape, strict=True)
         )
@@ -129,15 +133,13 @@ def segment(
     # Distance to walls, not to what was not seen: the edge of sight is no wall.
     width = ndimage.distance_transform_edt(~(wall | lintel)) * space.cell_m
     inside = _bridged(inside, width, settings.gap_m, space.cell_m)
-    basins, peaks = _flood(width * inside, space.cell_m)
-    basins = _spread(basins, inside)
+    basins, peaks = flood(width * inside, space.cell_m)
+    basins = spread(basins, inside)
     merged = _merge(basins, peaks, width, votes, settings, space.cell_m)
     reach = max(1, round(settings.reach_m / space.cell_m))
     # Up to walls, and not beyond where there is none in sight.
     at_wall = ndimage.binary_dilation(wall, iterations=reach) & ~wall
-    grown = _spread(
-        merged, ndimage.binary_dilation(inside, iterations=reach, mask=at_wall | inside)
-    )
+    grown = spread(merged, ndimage.binary_dilation(inside, iterations=reach, mask=at_wall | inside))
     kept = _without_small(_connected(grown), set(votes), settings, space.cell_m)
     return Regions(kept, _completed(kept, wall, settings, space.cell_m))
 
@@ -191,64 +193,13 @@ def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:
     Cut off by a straight edge of sight, a corner's area is a quarter of the edge's square at most;
     what is larger than the square is a room of its own behind a gap.
     """
-    pieces, _ = ndimage.label(full & ~seen, _NEIGHBOURS)
-    contact = ndimage.binary_dilation(seen, _NEIGHBOURS) & (pieces > 0)
+    pieces, _ = ndimage.label(full & ~seen, NEIGHBOURS)
+    contact = ndimage.binary_dilation(seen, NEIGHBOURS) & (pieces > 0)
     areas = np.bincount(pieces.ravel())
     edges = np.bincount(pieces[contact], minlength=len(areas))
     is_corner = areas <= edges**2
     is_corner[0] = False
     return np.asarray(seen | is_corner[pieces])
-
-
-def _flood(width: NDArray[np.float64], cell_m: float) -> tuple[RegionImage, dict[int, float]]:
-    """Return basins (R, C) around the widest spots, and how wide each is there (half, metres).
-
-    A spot that is not a cell's diagonal wider than the way to a wider one is no basin of its own.
-    """
-    basins = np.zeros(width.shape, dtype=np.int32)
-    peaks: dict[int, float] = {}
-    for level in np.arange(width.max(), 0, -cell_m / 2):
-        spots, count = ndimage.label(width >= level, _NEIGHBOURS)
-        for i, window in enumerate(ndimage.find_objects(spots, count), 1):
-            here, spot = basins[window], spots[window] == i
-            found = [int(b) for b in np.unique(here[spot]) if b]
-            if not found:
-                found = [len(peaks) + 1]
-                peaks[found[0]] = float(level)
-                here[spot] = found[0]
-                continue
-            widest = max(found, key=lambda b: peaks[b])
-            for b in found:
-                if b != widest and peaks[b] - level < 1.5 * cell_m:
-                    here[here == b] = widest
-            here[...] = np.where(spot, _spread(here * spot, spot), here)
-    return basins, peaks
-
-
-def _spread(regions: RegionImage, where: BoolImage) -> RegionImage:
-    """Give each cell of `where` the region nearest to it among those it hangs together with."""
-    if not regions.any():
-        return np.where(where, regions, 0)
-    nearest = ndimage.distance_transform_edt(
-        regions == 0, return_distances=False, return_indices=True
-    )
-    return np.where(where, regions[tuple(nearest)], 0).astype(np.int32)
-
-
-def borders(regions: RegionImage) -> dict[tuple[int, int], NDArray[np.intp]]:
-    """Return, for each two regions that touch, the cells (N, 2) of both on their border."""
-    cells: dict[tuple[int, int], list[NDArray[np.intp]]] = {}
-    for axis in (0, 1):
-        one = np.moveaxis(regions, axis, 0)[:-1]
-        other = np.moveaxis(regions, axis, 0)[1:]
-        at = np.argwhere((one != other) & (one > 0) & (other > 0))
-        a, b = one[tuple(at.T)], other[tuple(at.T)]
-        low, high = np.minimum(a, b), np.maximum(a, b)
-        for pair in {(int(p), int(q)) for p, q in zip(low, high, strict=True)}:
-            here = at[(low == pair[0]) & (high == pair[1])]
-            both = np.concatenate([here, here + np.array([1, 0])])
-            cells.setdefault(pair, []).append(both if axis == 0 else both[:, ::-1])
-    return {pair: np.unique(np.concatenate(found), axis=0) for pair, found in cells.items()}
 
 
 def _merge(
