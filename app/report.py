@@ -7,6 +7,9 @@ from typing import Any
 
 from rich.table import Table
 
+from semantics.graph import UNLABELLED
+from semantics.labels import UNKNOWN
+
 
 def summary(metrics: Mapping[str, Any]) -> Table:
     """Return a table of what a run found and how good it is."""
@@ -33,8 +36,11 @@ def summary(metrics: Mapping[str, Any]) -> Table:
 
 
 def _places(places: Sequence[str]) -> str:
-    if not set(places) - {"unknown"}:
+    found = set(places) - {UNKNOWN}
+    if not found:
         return "not labelled (a model from `roomgraph train` does: --model)"
+    if all(place.removeprefix(UNLABELLED).isdigit() for place in found):
+        return f"{len(found)}, not labelled (a model from `roomgraph train` does: --model)"
     return ", ".join(places)
 
 

@@ -15,15 +15,13 @@ from scipy import ndimage
 from datasets import poses
 from datasets.settings import Settings
 from semantics.doorways import find_doorways
-from semantics.graph import Extent, GraphNode, SemanticGraph
+from semantics.graph import UNLABELLED, Extent, GraphNode, SemanticGraph
 from semantics.labels import UNKNOWN
 from semantics.regions import Regions, RegionSettings, segment
 from semantics.watershed import RegionImage
 from slam.survey import Survey
 
 FloatArray = NDArray[np.float64]
-# What a place is called that nothing labels.
-UNLABELLED = "room"
 # A spot's distance to the walls, as a share of the largest, from which it is far from them.
 _INNERMOST = 0.8
 

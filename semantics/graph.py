@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 
 from semantics.labels import LabelSpace
 
+# What a place is called that nothing labels.
+UNLABELLED = "room"
+
 
 class EdgeKind(StrEnum):
     """Why two nodes are joined."""
