@@ -112,14 +112,14 @@ def _orientations(image: FloatArray) -> FloatArray:
     gx = cv2.Sobel(image, cv2.CV_32F, 1, 0, ksize=1, scale=0.5)
     gy = cv2.Sobel(image, cv2.CV_32F, 0, 1, ksize=1, scale=0.5)
     magnitude, angle = cv2.cartToPolar(gx, gy)
-    where = (angle.ravel() * (ORIENTATIONS / (2 * np.pi))).astype(np.float32)
-    lower = where.astype(np.intp)
-    share = where - lower
-    strength = magnitude.ravel()
-    pixels = np.arange(strength.size)
-    found = np.zeros((strength.size, ORIENTATIONS), dtype=np.float32)
-    found[pixels, lower % ORIENTATIONS] = strength * (1 - share)
-    found[pixels, (lower + 1) % ORIENTATIONS] = strength * share
+    where = angle.ravel() * np.float32(ORIENTATIONS / (2 * np.pi))
+    lower = where.astype(np.int32)
+    upper_share = magnitude.ravel() * (where - lower)
+    first = np.arange(0, ORIENTATIONS * where.size, ORIENTATIONS, dtype=np.int32)
+    found = np.zeros(ORIENTATIONS * where.size, dtype=np.float32)
+    # ORIENTATIONS is a power of two: the last bits are the remainder.
+    found[first + (lower & (ORIENTATIONS - 1))] = magnitude.ravel() - upper_share
+    found[first + ((lower + 1) & (ORIENTATIONS - 1))] = upper_share
     return found.reshape(*image.shape, ORIENTATIONS)
 
 
@@ -140,7 +140,9 @@ def _centres(length: int, settings: DenseSettings) -> NDArray[np.float64]:
 
 def _root(blocks: FloatArray, contrast: float) -> FloatArray:
     """Normalise descriptors (N, 128), limit large numbers, and take the root."""
-    length = np.linalg.norm(blocks, axis=1, keepdims=True)
-    limited = np.minimum(blocks / np.maximum(length, 1e-6), _LIMIT)
-    shares = limited / np.maximum(limited.sum(axis=1, keepdims=True), 1e-6)
-    return np.asarray(np.sqrt(shares * (length / (length + contrast))), dtype=np.float32)
+    length = np.sqrt(np.einsum("ij,ij->i", blocks, blocks))[:, None]
+    found = blocks / np.maximum(length, 1e-6)
+    np.minimum(found, _LIMIT, out=found)
+    scale = length / (length + contrast) / np.maximum(found.sum(axis=1, keepdims=True), 1e-6)
+    found *= scale
+    return np.asarray(np.sqrt(found, out=found), dtype=np.float32)

@@ -17,6 +17,8 @@ FloatArray = NDArray[np.float32]
 ARRAYS = ("mean", "projection", "position_scale", "means", "variances", "weights")
 # No descriptor of a flat image has a larger number than this.
 _FLAT = 1e-2
+# A posterior below this, relative to the largest one of its descriptor, counts as none.
+_NEGLIGIBLE = 1e-4
 # A word that no descriptor belongs to keeps a little width and weight.
 _SMALLEST_VARIANCE, _SMALLEST_WEIGHT = 1e-4, 1e-5
 
@@ -158,4 +160,8 @@ def _log_terms(
 def _softmax(scores: NDArray[Any]) -> FloatArray:
     scores -= scores.max(axis=1, keepdims=True)
     np.exp(scores, out=scores)
-    return np.asarray(scores / scores.sum(axis=1, keepdims=True), dtype=np.float32)
+    # What is next to nothing is left out (Sanchez et al., 2013): numbers near the
+    # smallest that float32 holds make products a dozen times slower.
+    scores[scores < _NEGLIGIBLE] = 0
+    scores /= scores.sum(axis=1, keepdims=True)
+    return np.asarray(scores, dtype=np.float32)

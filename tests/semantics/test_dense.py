@@ -97,6 +97,13 @@ def test_the_fisher_vector_is_the_gradient_of_the_likelihood(encoder):
     np.testing.assert_allclose(found, expected, atol=0.01)
 
 
+def test_posteriors_are_shares_without_numbers_next_to_nothing(encoder):
+    found = encoder.posteriors(encoder.project(describe_densely(stripes(0.7), SETTINGS)))
+    np.testing.assert_allclose(found.sum(axis=1), 1, atol=1e-5)
+    assert found[found > 0].min() > 1e-6
+    assert (found == 0).any()
+
+
 def test_like_images_are_near(encoder):
     a, b, c = (encoder.encode(describe_densely(stripes(x), SETTINGS)) for x in (0.5, 0.55, 2.0))
     assert a @ b > 0.5 > a @ c
