@@ -30,6 +30,8 @@ SEEDS, WORD_SEED = (20, 21, 22, 23, 24, 25), 26
 # a walk is learned from or tested, so that hardly two are alike.
 WALK = {"width": 320, "height": 240, "step_m": 0.16, "turn_deg": 8.0}
 STRIDE = 4
+# So many of those images in a row make a stretch: about 2.5 m, or a third of a turn.
+STRETCH = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +151,28 @@ class Collection:
             np.array(buildings),
             np.array([walk.light for walk in self.walks]),
             self.C,
+            self._stretches(),
         )
+
+    def _stretches(self) -> NDArray[np.intp]:
+        """Return which stretch of its visit each image is from; nothing of the user's walks.
+
+        Of a rendered building the same walk is taken in every light. A visit has two stretches at
+        least, and they alternate along the whole walk.
+        """
+        if len({walk.building for walk in self.walks}) == len({id(walk) for walk in self.walks}):
+            return np.empty(0, dtype=np.intp)
+        visits = np.array([image.example.group for image in self.images])
+        walks = np.array([id(walk) for walk in self.walks])
+        found = np.zeros(len(visits), dtype=np.intp)
+        for walk in dict.fromkeys(walks.tolist()):
+            first = 0
+            for visit in dict.fromkeys(visits[walks == walk].tolist()):
+                members = np.flatnonzero((walks == walk) & (visits == visit))
+                count = max(2, round(len(members) / STRETCH))
+                found[members] = first + np.arange(len(members)) * count // len(members)
+                first += count
+        return found
 
 
 def route_positions(images: Sequence[Described]) -> NDArray[np.float64]:

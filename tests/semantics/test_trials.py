@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -64,6 +66,25 @@ def test_across_light_stays_in_a_building(bench, monkeypatch):
     assert not shared
     assert len(found) == 2 * 4
     assert {t.row for t in found} == {"day to night", "night to day"}
+
+
+def test_across_light_no_stretch_of_the_walk_is_on_both_sides(bench, monkeypatch):
+    stretches = np.tile([0, 0, 1, 1, 1], 48)
+    alternating = replace(bench, stretches=stretches)
+    spots = np.array([f"{b}{s % 2}" for b, s in zip(bench.buildings, stretches, strict=True)])
+    sides = []
+    original = trials.run_trial
+
+    def watched(bench, row, train, test):
+        sides.append((row, set(spots[train]) & set(spots[test])))
+        return original(bench, row, train, test)
+
+    monkeypatch.setattr(trials, "run_trial", watched)
+    found = list(trials.light(alternating))
+    assert len(found) == 3 * 2 * 4
+    assert all(bool(shared) == (row == trials.SAME_VIEWS) for row, shared in sides)
+    tested = sum(len(t.truth) for t in found if t.row != trials.SAME_VIEWS)
+    assert tested == len(bench.labels)
 
 
 def test_another_building_is_never_learned_from(bench, monkeypatch):
