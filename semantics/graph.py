@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from semantics.evidence import Evidence
 from semantics.labels import LabelSpace
 
 # What a place is called that nothing labels.
@@ -43,6 +44,9 @@ class GraphNode:
         Of the label, 0 to 1.
     histogram : (Q,) float64
         Visual memory: the frame's appearance, of unit length; empty without a model.
+    evidence : Evidence
+        What spoke for the label that the node was dropped with. The place that it turned out to
+        lie in may have given it another.
     """
 
     id: int
@@ -54,6 +58,7 @@ class GraphNode:
     place: str
     score: float
     histogram: NDArray[np.float64]
+    evidence: Evidence = field(default_factory=Evidence)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ import numpy as np
 from datasets.files import replacing
 from semantics.documents import read_document, write_document
 from semantics.errors import SemanticsError
+from semantics.evidence import Evidence
 from semantics.graph import (
     Doorway,
     EdgeKind,
@@ -21,8 +22,8 @@ from semantics.graph import (
 )
 from semantics.labels import LabelSpace
 
-# Version 1 knew no places' extents and no doorways.
-SCHEMA, VERSION, OLD_VERSION = "roomgraph/semantic-graph", 2, 1
+# Version 2 kept no evidence for labels; version 1 knew no places' extents and no doorways either.
+SCHEMA, VERSION, OLD_VERSIONS = "roomgraph/semantic-graph", 3, (2, 1)
 _UNITS = {"position": "m", "length": "m", "stamp": "s", "area": "m2", "width": "m"}
 
 
@@ -36,7 +37,7 @@ def write_graph_json(path: Path, graph: SemanticGraph) -> None:
         "graph": _label_space(graph.labels),
         "nodes": [
             {**_node(node), "position": node.position_world.round(6).tolist(),
-             "histogram": node.histogram.round(6).tolist()}
+             "histogram": node.histogram.round(6).tolist(), "evidence": node.evidence.content()}
             for node in graph.nodes
         ],
         "links": [
@@ -50,14 +51,14 @@ def write_graph_json(path: Path, graph: SemanticGraph) -> None:
 
 
 def read_graph_json(path: Path) -> SemanticGraph:
-    """Read what `write_graph_json` wrote, of this version or the one before.
+    """Read what `write_graph_json` wrote, of this version or one before.
 
     Raises
     ------
     SemanticsError
         The file is missing or is not such a graph.
     """
-    content = read_document(path, SCHEMA, VERSION, OLD_VERSION)
+    content = read_document(path, SCHEMA, VERSION, *OLD_VERSIONS)
     try:
         return _graph(content["graph"], content["nodes"], content["links"], content)
     except (KeyError, TypeError, ValueError) as error:
@@ -79,7 +80,10 @@ def write_graphml(path: Path, graph: SemanticGraph) -> None:
         x, y, z = (float(value) for value in node.position_world)
         histogram = " ".join(f"{value:.6g}" for value in node.histogram)
         values = _node(node)
-        drawn.add_node(values.pop("id"), **values, x=x, y=y, z=z, histogram=histogram)
+        evidence = json.dumps(node.evidence.content())
+        drawn.add_node(
+            values.pop("id"), **values, x=x, y=y, z=z, histogram=histogram, evidence=evidence
+        )
     for edge in graph.edges:
         drawn.add_edge(edge.source, edge.target, length=edge.length_m, kind=str(edge.kind))
     with replacing(path) as temporary:
@@ -101,7 +105,8 @@ def read_graphml(path: Path) -> SemanticGraph:
         labels = {key: json.loads(drawn.graph[key]) for key in ("labels", "colours")}
         nodes = [
             {**values, "id": i, "position": [values["x"], values["y"], values["z"]],
-             "histogram": [float(v) for v in (values["histogram"] or "").split()]}
+             "histogram": [float(v) for v in (values["histogram"] or "").split()],
+             "evidence": json.loads(values.get("evidence", "null"))}
             for i, values in drawn.nodes(data=True)
         ]  # fmt: skip
         links = [{"source": a, "target": b, **values} for a, b, values in drawn.edges(data=True)]
@@ -165,11 +170,13 @@ def _graph(
 
 
 def _read_node(values: dict[str, Any]) -> GraphNode:
+    evidence = values.get("evidence")
     return GraphNode(
         int(values["id"]), int(values["frame"]), float(values["stamp"]),
         np.array(values["position"], dtype=np.float64).reshape(3),
         str(values["label"]), int(values["label_id"]), str(values["place"]),
         float(values["score"]), np.array(values["histogram"], dtype=np.float64),
+        Evidence() if evidence is None else Evidence.from_content(evidence),
     )  # fmt: skip
 
 

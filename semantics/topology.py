@@ -11,6 +11,7 @@ from pydantic import Field
 
 from datasets.settings import Settings
 from semantics.errors import SemanticsError
+from semantics.evidence import Evidence
 from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
 from semantics.instances import InstanceSettings, PlaceNames, Sight
 from semantics.labeller import FrameLabel
@@ -49,6 +50,7 @@ class _Node:
     stay: int | None
     score: float
     histogram: NDArray[np.float64]
+    evidence: Evidence
 
 
 class TopologicalMap:
@@ -133,6 +135,7 @@ class TopologicalMap:
             GraphNode(
                 i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
                 node.label, node.label_id, self._place(node), node.score, node.histogram,
+                node.evidence,
             )
             for i, node in enumerate(self._nodes)
         )  # fmt: skip
@@ -145,7 +148,7 @@ class TopologicalMap:
             _Node(
                 tracking.index, tracking.stamp_s, anchor, frame_label.label, frame_label.label_id,
                 self._stay(frame_label, anchor, T_world_keyframe),
-                frame_label.score, frame_label.histogram,
+                frame_label.score, frame_label.histogram, Evidence.of(frame_label, self.labels),
             )
         )  # fmt: skip
 

@@ -110,4 +110,5 @@ def test_evidence_names_the_word_that_spoke_and_comes_back():
     assert evidence.labels == (("office", 0.7), ("corridor", 0.2), ("kitchen", 0.1))
     again = Evidence.from_content(evidence.content())
     assert (again.labels, again.voters) == (evidence.labels, evidence.voters)
+    assert again.voted == "office"
     assert Evidence.of(frame_label(3, 0.0), LABELS) == Evidence()

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 import networkx
 import numpy as np
@@ -7,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from datasets.poses import pose
 from semantics.errors import SemanticsError
+from semantics.evidence import Evidence
 from semantics.graph import Doorway, EdgeKind, Extent, GraphEdge, GraphNode, SemanticGraph
 from semantics.graph_io import read_graph_json, read_graphml, write_graph_json, write_graphml
 from semantics.labels import LabelSpace
@@ -21,6 +23,7 @@ def graph():
         GraphNode(
             i, 10 * i, 1.5e9 + i / 3, rng.normal(0, 5, 3).round(6), name, labels.id_of(name),
             f"{name}1", 0.25 * i, rng.random(4).round(6),
+            Evidence(((name, 0.75), ("attic", 0.125)), (10 * i, 10 * i + 1), ((7, 0.5),) * i, name),
         )
         for i, name in enumerate(["corridor", "office", "kitchen", "corridor"])
     )  # fmt: skip
@@ -50,7 +53,7 @@ def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
     for ours, theirs in zip(a.nodes, b.nodes, strict=True):
         np.testing.assert_allclose(ours.position_world, theirs.position_world, atol=1e-6)
         np.testing.assert_allclose(ours.histogram, theirs.histogram, atol=1e-6)
-        for name in ("id", "frame", "stamp_s", "label", "label_id", "place", "score"):
+        for name in ("id", "frame", "stamp_s", "label", "label_id", "place", "score", "evidence"):
             assert getattr(ours, name) == getattr(theirs, name)
     for ours, theirs in zip(a.extents, b.extents, strict=True):
         np.testing.assert_allclose(ours.polygon_map, theirs.polygon_map, atol=1e-4)
@@ -84,24 +87,28 @@ def test_empty_graph_and_graph_without_model(tmp_path, write, read):
     assert_same(read(tmp_path / "graph"), SemanticGraph(LabelSpace(), (node,), ()))
 
 
-def test_version_1_is_still_read(tmp_path, graph):
+def test_older_versions_are_still_read(tmp_path, graph):
     path = tmp_path / "graph.json"
     write_graph_json(path, graph)
-    content = json.loads(path.read_text()) | {"version": 1}
+    content = json.loads(path.read_text())
+    nodes = tuple(replace(node, evidence=Evidence()) for node in graph.nodes)
+    for node in content["nodes"]:
+        del node["evidence"]
+    path.write_text(json.dumps(content | {"version": 2}))
+    assert_same(read_graph_json(path), replace(graph, nodes=nodes))
     for name in ("T_map_world", "places", "doorways"):
         del content[name]
-    path.write_text(json.dumps(content))
-    old = SemanticGraph(graph.labels, graph.nodes, graph.edges)
-    assert_same(read_graph_json(path), old)
-    path.write_text(json.dumps(content | {"version": 3}))
-    with pytest.raises(SemanticsError, match="version 2"):
+    path.write_text(json.dumps(content | {"version": 1}))
+    assert_same(read_graph_json(path), SemanticGraph(graph.labels, nodes, graph.edges))
+    path.write_text(json.dumps(content | {"version": 4}))
+    with pytest.raises(SemanticsError, match="version 3"):
         read_graph_json(path)
 
 
 def test_json_says_what_it_is_and_networkx_reads_it(tmp_path, graph):
     write_graph_json(tmp_path / "graph.json", graph)
     content = json.loads((tmp_path / "graph.json").read_text())
-    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 2)
+    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 3)
     assert content["frame"] == "world"
     assert content["units"]["position"] == content["units"]["length"] == "m"
     drawn = networkx.node_link_graph(content, edges="links")
