@@ -30,8 +30,12 @@ SEEDS, WORD_SEED = (20, 21, 22, 23, 24, 25), 26
 # a walk is learned from or tested, so that hardly two are alike.
 WALK = {"width": 320, "height": 240, "step_m": 0.16, "turn_deg": 8.0}
 STRIDE = 4
-# So many of those images in a row make a stretch: about 2.5 m, or a third of a turn.
-STRETCH = 4
+# Across light, twice as many: those learned from, and those halfway between. So many of them in a
+# row make a stretch: about 2.5 m, or a third of a turn.
+LIGHT_STRIDE, STRETCH = 2, 8
+
+# Vectors of more images than this are left as they are: turning them would take longer.
+TURNED = 2500
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,16 +83,19 @@ class Describer:
         self.settings, self.features = preset(name)
         self.terminal = terminal
         self.model = learn(
-            self.describe(examples, "Learning words"), self.features, self.settings, seed
+            self.describe(examples, "Learning words", True), self.features, self.settings, seed
         )
 
-    def describe(self, examples: Sequence[Example], title: str) -> list[Described]:
-        """Return the readable images, described."""
+    def describe(
+        self, examples: Sequence[Example], title: str, to_learn_words: bool = False
+    ) -> list[Described]:
+        """Return the readable images, described by what the classifier sees, or for words."""
+        features = self.features if to_learn_words or self.settings.encoding == "words" else None
         dense = self.settings.fisher.dense if self.settings.encoding == "fisher" else None
         known = [example for example in examples if example.label != UNKNOWN]
         with self.terminal.progress(title) as advance:
             found = describe_images(
-                known, self.features, dense, self.settings.threads,
+                known, features, dense, self.settings.threads,
                 lambda done, total: advance(done, total, "images"),
             )  # fmt: skip
         return [described for described in found if described is not None]
@@ -137,42 +144,45 @@ class Collection:
     def bench(self) -> Bench:
         """Return the images as the experiments take them.
 
-        The vectors are turned onto the axes that they span, which changes no product of two and
-        makes them shorter.
+        The vectors of few images are turned onto the axes that they span, which changes no product
+        of two and makes them shorter.
         """
+        vectors = np.asarray(self.vectors)
         examples = [image.example for image in self.images]
         buildings = [walk.building for walk in self.walks]
         rooms = [f"{b}/{e.place or e.group}" for b, e in zip(buildings, examples, strict=True)]
         return Bench(
-            turned(np.asarray(self.vectors, dtype=np.float64)),
+            turned(vectors.astype(np.float64)) if len(vectors) <= TURNED else vectors,
             np.array([example.label for example in examples]),
             np.array([example.group for example in examples]),
             np.array(rooms),
             np.array(buildings),
             np.array([walk.light for walk in self.walks]),
             self.C,
-            self._stretches(),
+            *self._along(),
         )
 
-    def _stretches(self) -> NDArray[np.intp]:
-        """Return which stretch of its visit each image is from; nothing of the user's walks.
+    def _along(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return the number of each image along its walk, and its stretch of it.
 
-        Of a rendered building the same walk is taken in every light. A visit has two stretches at
-        least, and they alternate along the whole walk.
+        Of a rendered building the same walk is taken in every light; nothing of the user's walks.
+        A visit has two stretches at least.
         """
+        order, stretches = np.zeros((2, len(self.images)), dtype=np.intp)
         if len({walk.building for walk in self.walks}) == len({id(walk) for walk in self.walks}):
-            return np.empty(0, dtype=np.intp)
-        visits = np.array([image.example.group for image in self.images])
+            return order[:0], stretches[:0]
         walks = np.array([id(walk) for walk in self.walks])
-        found = np.zeros(len(visits), dtype=np.intp)
+        visits = np.array([image.example.group for image in self.images])
         for walk in dict.fromkeys(walks.tolist()):
+            members = np.flatnonzero(walks == walk)
+            order[members] = np.arange(len(members))
             first = 0
-            for visit in dict.fromkeys(visits[walks == walk].tolist()):
-                members = np.flatnonzero((walks == walk) & (visits == visit))
-                count = max(2, round(len(members) / STRETCH))
-                found[members] = first + np.arange(len(members)) * count // len(members)
+            for visit in dict.fromkeys(visits[members].tolist()):
+                own = members[visits[members] == visit]
+                count = max(2, round(len(own) / STRETCH))
+                stretches[own] = first + np.arange(len(own)) * count // len(own)
                 first += count
-        return found
+        return order, stretches
 
 
 def route_positions(images: Sequence[Described]) -> NDArray[np.float64]:

@@ -41,12 +41,14 @@ class Described:
 
 def describe_images(
     examples: Sequence[Example],
-    features: FeatureSettings,
+    features: FeatureSettings | None,
     dense: DenseSettings | None,
     threads: int,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Described | None]:
     """Return each image described, or None for those that cannot be read.
+
+    Without settings of features, or of dense descriptors, those are left out.
 
     OpenCV lets go of the interpreter while it works, so threads do. Each has its own detector:
     OpenCV's are not made to be shared.
@@ -54,15 +56,18 @@ def describe_images(
     local = threading.local()
 
     def describe(example: Example) -> Described | None:
-        if not hasattr(local, "extractor"):
-            local.extractor = FeatureExtractor(features)
         try:
             colour = example.read()
         except DatasetError as error:
             logger.warning("left out: %s", error)
             return None
+        small = None if dense is None else small_grey(colour, dense)
+        if features is None:
+            return Described(example, np.empty((0, 0), dtype=np.float32), small)
+        if not hasattr(local, "extractor"):
+            local.extractor = FeatureExtractor(features)
         descriptors = as_vectors(local.extractor.extract_image(colour).descriptors)
-        return Described(example, descriptors, None if dense is None else small_grey(colour, dense))
+        return Described(example, descriptors, small)
 
     found = []
     with ThreadPoolExecutor(threads) as pool:

@@ -14,8 +14,8 @@ from semantics.folds import assign_folds
 
 Progress = Callable[[int, int], None]
 N_FOLDS = 10
-# The row of trials across light in which views of the training recur.
-SAME_VIEWS = "the same views on both sides"
+# Rows of trials that learn from and test alternate stretches of a walk.
+STRETCHES, STRETCHES_SAME_LIGHT = "other stretches, other light", "other stretches, same light"
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,9 +30,9 @@ class Bench:
         The kind of place, the visit, the very room, the building and its light.
     C : float
         Penalty of the SVM.
-    stretches : (N,) int
-        Stretch of the visit that the image is from, where the same walk was taken in every light;
-        else empty.
+    order, stretches : (N,) int
+        Number of the image along its walk, and of the stretch of the walk that it is from, where
+        the same walk was taken in every light; else empty.
     """
 
     vectors: NDArray[np.float64]
@@ -42,6 +42,7 @@ class Bench:
     buildings: NDArray[np.str_]
     lights: NDArray[np.str_]
     C: float
+    order: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     stretches: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     @property
@@ -116,19 +117,23 @@ def recognition(bench: Bench, seed: int) -> Iterator[Trial]:
 def light(bench: Bench) -> Iterator[Trial]:
     """Train in one light, test in another, in each building (paper, Table 2).
 
-    Where the same walk was taken in every light, alternate stretches of it are learned from and
-    tested, so that no view is on both sides; then again without that.
+    Where the same walk was taken in every light, every other image of it is learned from, and
+    those halfway between are tested. Then alternate stretches of the walk are learned from and
+    tested, in another light and, to see what of the loss is the light's, in the same.
     """
     lights = sorted(set(bench.lights.tolist()))
     pairs = [(a, b) for a in lights for b in lights if a != b]
-    everything = np.ones(len(bench.labels), dtype=bool)
-    if not len(bench.stretches):
+    if not len(bench.order):
+        everything = np.ones(len(bench.labels), dtype=bool)
         yield from _across(bench, pairs, everything, everything, "{} to {}")
         return
+    odd = bench.order % 2 == 1
+    yield from _across(bench, pairs, ~odd, odd, "{} to {}")
     odd = bench.stretches % 2 == 1
     for train, test in ((odd, ~odd), (~odd, odd)):
-        yield from _across(bench, pairs, train, test, "{} to {}")
-    yield from _across(bench, pairs, everything, everything, SAME_VIEWS)
+        yield from _across(bench, pairs, train, test, STRETCHES)
+    for train, test in ((odd, ~odd), (~odd, odd)):
+        yield from _across(bench, [(a, a) for a in lights], train, test, STRETCHES_SAME_LIGHT)
 
 
 def _across(

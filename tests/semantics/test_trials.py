@@ -68,23 +68,26 @@ def test_across_light_stays_in_a_building(bench, monkeypatch):
     assert {t.row for t in found} == {"day to night", "night to day"}
 
 
-def test_across_light_no_stretch_of_the_walk_is_on_both_sides(bench, monkeypatch):
-    stretches = np.tile([0, 0, 1, 1, 1], 48)
-    alternating = replace(bench, stretches=stretches)
-    spots = np.array([f"{b}{s % 2}" for b, s in zip(bench.buildings, stretches, strict=True)])
+def test_across_light_no_view_is_on_both_sides(bench, monkeypatch):
+    order, stretches = np.tile(np.arange(5), 48), np.tile([0, 0, 1, 1, 1], 48)
+    alternating = replace(bench, order=order, stretches=stretches)
     sides = []
     original = trials.run_trial
 
     def watched(bench, row, train, test):
-        sides.append((row, set(spots[train]) & set(spots[test])))
+        along = stretches if "stretches" in row else order
+        sides.append(set(along[train]) & set(along[test]))
+        assert (row == trials.STRETCHES_SAME_LIGHT) == (
+            set(bench.lights[train]) == set(bench.lights[test])
+        )
         return original(bench, row, train, test)
 
     monkeypatch.setattr(trials, "run_trial", watched)
     found = list(trials.light(alternating))
-    assert len(found) == 3 * 2 * 4
-    assert all(bool(shared) == (row == trials.SAME_VIEWS) for row, shared in sides)
-    tested = sum(len(t.truth) for t in found if t.row != trials.SAME_VIEWS)
-    assert tested == len(bench.labels)
+    assert len(found) == (1 + 2 + 2) * 2 * 4
+    assert not any(sides)
+    assert sum(len(t.truth) for t in found if t.row == trials.STRETCHES) == len(bench.labels)
+    assert [t.row for t in found][:8] == ["day to night"] * 4 + ["night to day"] * 4
 
 
 def test_another_building_is_never_learned_from(bench, monkeypatch):
