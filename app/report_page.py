@@ -17,6 +17,7 @@ from app.config import AppSettings
 from app.errors import AppError
 from app.floorplan import draw_floor_plan, save_floor_plan
 from app.occupancy_io import read_occupancy
+from app.report_evidence import place_reasons
 from app.run_folder import UNREAD, RunFolder
 from app.thumbnails import read_thumbnails
 from datasets.errors import RoomgraphError
@@ -144,7 +145,11 @@ def _place_content(folder: RunFolder, graph: SemanticGraph) -> dict[str, Any]:
             "doors": ", ".join(p for p in graph.places if p in doors - {name}) or _NONE,
             "pictures": pictures.get(name, []),
         })  # fmt: skip
-    return {"places": rows, "strips": any(row["pictures"] for row in rows)}
+    return {
+        "places": rows,
+        "strips": any(row["pictures"] for row in rows),
+        "reasons": place_reasons(graph),
+    }
 
 
 def _pictures(

@@ -10,6 +10,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from app.report_evidence import node_words
 from app.rerun_framing import Axes
 from app.rerun_images import DEPTH_UNITS_PER_M, thinned
 from app.viewer import MapView, SessionView
@@ -180,6 +181,7 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
     nodes = rr.Points3D(
         graph.positions, class_ids=[node.label_id for node in graph.nodes],
         radii=rr.Radius.ui_points(6.0), show_labels=False,
+        labels=[node_words(node) for node in graph.nodes],
     )  # fmt: skip
     names = rr.Points3D(
         graph.positions[named], labels=list(spots), show_labels=True,

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from app.errors import AppError
+from app.report_evidence import place_reasons
 from app.report_page import write_report
 from app.run_folder import RunFolder
 from app.thumbnails import ThumbnailWriter, read_thumbnails
@@ -68,6 +69,10 @@ def test_the_page_says_what_was_found(mapped):
     assert f"ATE {metrics['ate_rmse_m'] * 100:.2f} cm" in text
     assert "Trajectory against the truth" in text
     assert "Labels over time" in text
+    assert "Why these labels" in text
+    for reason in place_reasons(graph):
+        assert reason["chances"] in text
+        assert reason["frames"] in text
     assert "[slam.features]" in text
 
 
