@@ -217,6 +217,8 @@ def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
     assert last[9] == ["0", "1", "2", "3"]
     assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
     assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
+    nodes = recorded.values("/world/graph/nodes", "Points3D:labels")[9]
+    assert nodes == ["kitchen1", "kitchen1", "office1", "office1"]
 
 
 def test_nodes_of_unknown_place_have_no_name() -> None:

@@ -1,9 +1,14 @@
+import time
+
+import cv2
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from threadpoolctl import threadpool_limits
 
 from semantics.dense import DenseDescriptors, DenseSettings, describe_densely
 from semantics.fisher import FisherEncoder
+from semantics.training import FisherSettings
 
 SETTINGS = DenseSettings(side=96, scales=2, step=6)
 
@@ -112,6 +117,25 @@ def test_like_images_are_near(encoder):
 def test_flat_images_have_no_vector(encoder):
     flat = describe_densely(np.full((60, 80, 3), 90, np.uint8), SETTINGS)
     assert not encoder.encode(flat).any()
+
+
+def test_is_cheap():
+    """An image of 640x480 by the default settings: 15 ms on a core that is a few years old."""
+    rng = np.random.default_rng(0)
+    grain = cv2.GaussianBlur(rng.normal(0, 1, (480, 640)), (0, 0), 4)
+    image = np.repeat(np.clip(127 + 600 * grain, 0, 255).astype(np.uint8)[..., None], 3, axis=2)
+    settings = FisherSettings()
+    sample = describe_densely(image, settings.dense)
+    encoder = FisherEncoder.fit(
+        sample, settings.dense, settings.n_words, settings.n_components, 1, rng, 2
+    )
+    times = []
+    with threadpool_limits(1, user_api="blas"):
+        for _ in range(20):
+            start = time.process_time()
+            encoder.encode(describe_densely(image, settings.dense))
+            times.append(time.process_time() - start)
+    assert min(times) < 0.02
 
 
 def test_position_counts(encoder):
