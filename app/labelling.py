@@ -156,9 +156,9 @@ def _label_sequence(
 
     for index, (frame, features) in enumerate(prefetch(describe, range(len(sequence)))):
         tracking = Tracking(
-            index, frame.stamp_s, TrackingState.SKIPPED, 0, "none", None, None, False, (), features
+            index, frame.stamp_s, TrackingState.SKIPPED, 0, "none", None, None, False
         )
-        labels = labeller.process(tracking, frame.colour)
+        labels = labeller.take(tracking, model.predict(features, frame.colour))
         if index + 1 == len(sequence):
             labels += labeller.finish()
         for label in labels:

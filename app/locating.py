@@ -21,7 +21,7 @@ from slam.features import FeatureExtractor
 from slam.memory import read_memory
 from slam.relocaliser import Relocaliser, RelocaliserSettings, Relocation, Resemblance
 from slam.tracker import Tracker
-from slam.view import see
+from slam.view import View
 
 # By looks alone, a place is named only if it has more than this share of what looks alike.
 _MAJORITY = 0.5
@@ -89,7 +89,7 @@ class Locator:
 
     def locate(self, frame: Frame) -> Whereabouts:
         """Say where a frame was taken; one without readings is located by its colours alone."""
-        found = self._relocaliser.locate(see(frame, self._extractor, self._max_depth_m))
+        found = self._relocaliser.locate(View(frame, self._extractor, self._max_depth_m))
         if not self.graph.nodes or found.best is None:
             return Whereabouts(UNKNOWN, UNKNOWN, None, 0.0, 0, None)
         if found.T_world_camera is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing
 from dataclasses import replace
@@ -38,6 +39,9 @@ from slam.view import View
 logger = logging.getLogger(__name__)
 
 Progress = Callable[[int, int, str], None]
+
+# Frames that labelling stays behind tracking.
+LABEL_LAG = 8
 
 
 class Pipeline:
@@ -80,6 +84,7 @@ class Pipeline:
         self.labeller = PlaceLabeller(model, settings.semantics.labeller)
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
         self._labelled: list[FrameLabel] = []
+        self._unlabelled: deque[Tracking] = deque()
         self._drawn_keyframes = 0
 
     def run(self) -> dict[str, Any]:
@@ -93,7 +98,7 @@ class Pipeline:
             try:
                 for view in self._views():
                     tracking = self._track(view)
-                    self._label(view, tracking)
+                    self._label(tracking)
                     self._show(view, tracking)
                     self._checkpoint(tracking)
             finally:
@@ -115,19 +120,28 @@ class Pipeline:
         with self.clock.stage("track"):
             return self.slam.process(view)
 
-    def _label(self, view: View, tracking: Tracking) -> None:
-        """Label frames; a model that describes images itself is shown the keyframes' only."""
-        with self.clock.stage("label"):
-            colour = view.frame.colour if tracking.is_keyframe else None
-            labels = self.labeller.process(tracking, colour)
-        self._take(labels)
+    def _label(self, tracking: Tracking) -> None:
+        """Label frames, some behind tracking: keyframes' features are found in the background."""
+        self._unlabelled.append(tracking)
+        self._label_but(LABEL_LAG)
+
+    def _label_but(self, count: int) -> None:
+        """Label the frames that wait, but the last few."""
+        while len(self._unlabelled) > count:
+            tracking = self._unlabelled.popleft()
+            with self.clock.stage("label"):
+                # A model that describes images itself is shown the keyframes' only.
+                view = tracking.view if tracking.is_keyframe else None
+                colour = None if view is None else view.frame.colour
+                labels = self.labeller.process(tracking, colour)
+            self._take(labels)
 
     def _take(self, labels: list[FrameLabel]) -> None:
         """Follow the path with frames whose vote is complete, and write them down."""
         for label in labels:
             with self.clock.stage("graph"):
                 dropped = self.topology.update(label, self.slam.keyframe_poses)
-            self._labelled.append(replace(label, tracking=label.tracking.without_features()))
+            self._labelled.append(replace(label, tracking=label.tracking.without_view()))
             self.recorder.add_frame(label)
             self.viewer.show_label(label.tracking.index, label.label_id, label.label, label.score)
             if dropped:
@@ -166,6 +180,8 @@ class Pipeline:
 
     def _finish(self) -> dict[str, Any]:
         """Write everything, from a whole run or from what there is of it."""
+        self.slam.finish()
+        self._label_but(0)
         self._take(self.labeller.finish())
         self.recorder.add_unread(self.sequence.stamps_s[len(self._labelled) :])
         keyframes = self.slam.keyframes
@@ -227,9 +243,9 @@ class Pipeline:
 
     def _trajectory(self) -> Trajectory:
         tracked = [
-            (label.tracking.stamp_s, self.slam.pose_of(label.tracking.anchor))
+            (label.tracking.stamp_s, self.slam.pose_of(anchor))
             for label in self._labelled
-            if label.tracking.anchor is not None
+            if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
         ]
         stamps = np.array([stamp for stamp, _ in tracked])
         return Trajectory(stamps, np.array([T for _, T in tracked]).reshape(-1, 4, 4))
@@ -237,7 +253,7 @@ class Pipeline:
     def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
         keyframe_poses = self.slam.keyframe_poses
         positions = {key: T[:3, 3] for key, T in keyframe_poses.items()}
-        links = self.slam.mapper.graph.links
+        links = self.slam.links
         ends = np.array([(positions[k.first], positions[k.second]) for k in links])
         loops = np.array([link.is_loop for link in links], dtype=bool)
         ends = ends.reshape(-1, 2, 3)
@@ -252,7 +268,7 @@ class Pipeline:
 
         Without a place's extent, what is seen through a door bears the label of this side of it.
         """
-        of_keyframe = np.zeros(len(self.slam.keyframes) + 1, dtype=np.uint16)
+        of_keyframe = np.zeros(len(self.slam.keyframe_poses) + 1, dtype=np.uint16)
         for label in self._labelled:
             tracking = label.tracking
             if tracking.is_keyframe and tracking.anchor is not None:

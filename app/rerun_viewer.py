@@ -164,7 +164,7 @@ class RerunViewer:
         if tracking.index % settings.depth_stride == 0:
             png = rerun_images.encode_depth(frame, settings.depth_step)
             log("world/camera/depth/image", rerun_scene.depth_image(png))
-        pixels = tracking.features.pixels[: settings.max_keypoints]
+        pixels = tracking.pixels[: settings.max_keypoints]
         usable = rerun_images.has_depth(frame, pixels)
         plain, lost = rerun_scene.PLAIN_COLOUR, not tracking.state.has_pose
         good = rerun_scene.STATE_COLOURS[TrackingState.LOST] if lost else rerun_scene.USABLE_COLOUR

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
@@ -55,7 +56,7 @@ def exponential(xi: FloatArray) -> FloatArray:
     The translation is taken as it is (the pseudo-exponential of Blanco, 2010, section 9),
     which agrees with the exponential of SE(3) to first order.
     """
-    return pose(Rotation.from_rotvec(xi[:3]).as_matrix(), xi[3:])
+    return pose(cv2.Rodrigues(xi[:3])[0], xi[3:])
 
 
 def logarithm(T: FloatArray) -> FloatArray:

@@ -11,7 +11,6 @@ from semantics.belief import propagate
 from semantics.labeller import LabellerSettings, PlaceLabeller
 from semantics.model import PlaceModel, PlacePrediction
 from semantics.trials import Trial
-from slam.features import Features
 from slam.tracking import Tracking, TrackingState
 
 NODE_M = 1.0
@@ -72,9 +71,7 @@ def _labelled(
     for i, (prediction, position) in enumerate(zip(predictions, positions, strict=True)):
         T = np.eye(4)
         T[:3, 3] = position
-        tracking = Tracking(
-            i, float(i), TrackingState.OK, 0, "none", None, T, False, (), Features.none()
-        )
+        tracking = Tracking(i, float(i), TrackingState.OK, 0, "none", None, T, False)
         found += labeller.take(tracking, prediction)
     return np.array([label.label for label in [*found, *labeller.finish()]])
 

@@ -33,6 +33,10 @@ class Connections:
         """Return the root of a keyframe's component."""
         return self._component[keyframe]
 
+    def members_of(self, root: int) -> list[int]:
+        """Return the keyframes of the component with this root."""
+        return list(self._members[root])
+
     def linked(self, keyframe: int) -> list[int]:
         """Return the keyframes that a keyframe is linked to."""
         return list(self._ways[keyframe])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,12 @@ FloatArray = NDArray[np.float64]
 class IcpSettings(Settings):
     """How planes are paired and aligned."""
 
+    on: Literal["surface", "planes", "nothing"] = Field(
+        "surface", description="what of two keyframes is aligned: all surface, its planes, nothing"
+    )
+    max_surface_m: float = Field(
+        0.05, gt=0, le=1, description="surface points further apart are not paired"
+    )
     max_angle_deg: float = Field(10.0, gt=0, le=90, description="between paired planes' normals")
     max_distance_m: float = Field(
         0.10, gt=0, le=1, description="th_max: points further apart are not paired"

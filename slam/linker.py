@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from slam.motion import Motion, estimate_motion, procrustes
 from slam.noise import SensorNoise
 from slam.pose_graph import Link
 from slam.refine import CHI2_95, RefinedMotion, refine_motion
+from slam.surface import Surface, align_surface, surface_of_image
 from slam.tracker import Located, Tracker, correspondences, one_a_position
 from slam.view import View
 
@@ -28,11 +30,27 @@ GLANCE_INLIERS = 8
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A link with the number of matches it rests on, and whether planes refined it."""
+    """What was measured between two keyframes.
+
+    Attributes
+    ----------
+    link : Link
+        By matched features.
+    inliers : int
+        How many matches it rests on.
+    by_planes : Link or None
+        By the planes that both see, where they agree with the features; it knows nothing of the
+        directions in which these planes slide.
+    """
 
     link: Link
     inliers: int
-    refined_by_planes: bool
+    by_planes: Link | None = None
+
+    @property
+    def links(self) -> list[Link]:
+        """All that was measured."""
+        return [self.link] if self.by_planes is None else [self.link, self.by_planes]
 
 
 class Linker:
@@ -40,6 +58,7 @@ class Linker:
 
     def __init__(self, tracker: Tracker, icp: IcpSettings, noise: SensorNoise) -> None:
         self.tracker, self.icp, self.noise = tracker, icp, noise
+        self._latest: tuple[int, Surface] | None = None
 
     def from_tracking(
         self, view: View, keyframe: Keyframe, owners: dict[int, Keyframe], located: Located
@@ -84,6 +103,12 @@ class Linker:
             found, view.frame.intrinsics, self.noise, settings, self.tracker.seed
         )
 
+    def _surface(self, keyframe: Keyframe) -> Surface:
+        """Return a keyframe's surface; it is aligned with several others one after the other."""
+        if self._latest is None or self._latest[0] != keyframe.id:
+            self._latest = keyframe.id, surface_of_image(keyframe.image, self.noise)
+        return self._latest[1]
+
     def _start(self, points: FloatArray, chosen: NDArray[np.intp], located: Located) -> FloatArray:
         """Return T_camera_owner from two positions of the same points: a closed-form fit."""
         T_reference_owner = procrustes(points, located.local_map.points[chosen[:, 0]])
@@ -92,18 +117,42 @@ class Linker:
     def _measure(
         self, keyframe: Keyframe, other: Keyframe, motion: RefinedMotion, is_loop: bool
     ) -> Measured:
-        """Refine a motion on common planes and make it a link; kept only if it fits better."""
+        """Make links of a motion by features and of the planes that both keyframes see."""
         T_keyframe_other, information = motion.T_camera_reference, motion.information
-        aligned = align_planes(
-            other.planes, keyframe.planes, T_keyframe_other, information, self.noise, self.icp
-        )
-        refined = False
-        if aligned is not None and aligned.improves:
-            step = poses.logarithm(aligned.T_target_source @ poses.inverse(T_keyframe_other))
-            # The features must still agree: the step stays within their own 95 % bound.
-            if step @ information @ step < 2 * CHI2_95:
-                refined = True
-                T_keyframe_other = aligned.T_target_source
-                information = information + aligned.information
         link = Link(other.id, keyframe.id, poses.inverse(T_keyframe_other), information, is_loop)
-        return Measured(link, motion.count, refined)
+        fine = self._align(keyframe, other, T_keyframe_other, information)
+        return Measured(link, motion.count, fine and replace(fine, is_loop=is_loop))
+
+    def _align(
+        self,
+        keyframe: Keyframe,
+        other: Keyframe,
+        T_keyframe_other: FloatArray,
+        information: FloatArray,
+    ) -> Link | None:
+        """Align what both keyframes see in depth; None where that contradicts the features."""
+        if self.icp.on == "nothing":
+            return None
+        if self.icp.on == "planes":
+            aligned = align_planes(
+                other.planes, keyframe.planes, T_keyframe_other, information, self.noise, self.icp
+            )
+            if aligned is None or not aligned.improves:
+                return None
+            T, H = aligned.T_target_source, aligned.information
+        else:
+            T, H = align_surface(
+                other.image.every(2).points.astype(np.float64),
+                self._surface(keyframe),
+                T_keyframe_other,
+                information,
+                self.noise,
+                self.icp.max_surface_m,
+                self.icp.iterations,
+            )
+        step = poses.logarithm(T @ poses.inverse(T_keyframe_other))
+        # The features must still agree: the step stays within their own 95 % bound.
+        if step @ information @ step >= 2 * CHI2_95:
+            return None
+        by: Literal["planes", "surface"] = "planes" if self.icp.on == "planes" else "surface"
+        return Link(other.id, keyframe.id, poses.inverse(T), H, is_loop=False, by=by)

@@ -78,7 +78,10 @@ class LoopCloser:
             tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
             for candidate in tried:
                 measured = self.linker.between(view, keyframe, keyframes[candidate])
-                if measured is not None and self._is_sound(measured, view, keyframes[candidate]):
+                if measured is not None and self.is_sound(
+                    measured.inliers, poses.inverse(measured.link.T_first_second), view,
+                    keyframes[candidate],
+                ):  # fmt: skip
                     taken = self.belief.admit(measured, graph)
                     break
         self.index.add(keyframe.id, words)
@@ -89,11 +92,10 @@ class LoopCloser:
         words = self.index.words_of(view.features.descriptors)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
-    def _is_sound(self, measured: Measured, view: View, other: Keyframe) -> bool:
-        """Whether a loop rests on enough matches, and on depth too."""
-        if measured.inliers < self.settings.min_inliers:
+    def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:
+        """Whether a motion between look-alikes rests on enough matches, and on depth too."""
+        if inliers < self.settings.min_inliers:
             return False
-        T_view_other = poses.inverse(measured.link.T_first_second)
         return depth_agreement(other.cloud, T_view_other, view) >= self.settings.min_agreement
 
     def _alike(self, words: NDArray[np.intp], keyframe: int, known: set[int]) -> list[int]:

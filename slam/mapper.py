@@ -11,6 +11,7 @@ from pydantic import Field
 
 from datasets import poses
 from datasets.settings import Settings
+from slam.estimate import Estimate
 from slam.keyframe import Keyframe
 from slam.linker import Linker
 from slam.local_map import LocalMap, local_map
@@ -20,9 +21,9 @@ from slam.noise import SensorNoise
 from slam.planes import PlaneSettings, extract_planes
 from slam.pose_graph import Link, PoseGraph
 from slam.range_image import range_image_of
-from slam.tracker import Located
 from slam.tracking import LoopClosure
 from slam.view import View
+from slam.window import Window
 
 FloatArray = NDArray[np.float64]
 
@@ -36,20 +37,46 @@ class KeyframeSettings(Settings):
     min_explained: float = Field(
         0.3, gt=0, le=1, description="of the view's features, the least found in the local map"
     )
+    min_followed: float = Field(
+        0.5, gt=0, le=1, description="of the corners of the template, the least still followed"
+    )
     max_baseline_share: float = Field(
         0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
     )
     max_angle_deg: float = Field(20.0, gt=0, le=180, description="turn from the reference, at most")
+    same_m: float = Field(
+        0.05,
+        gt=0,
+        le=1,
+        description="an old keyframe serves where the way agrees this well, metres",
+    )
+    same_deg: float = Field(2.0, gt=0, le=30, description="and this well in degrees")
     neighbours: int = Field(3, ge=0, le=50, description="keyframes tracked beside the reference")
 
 
 @dataclass(frozen=True, slots=True)
-class Coarse:
-    """A pose without matches, from depth alone."""
+class MapUpdate:
+    """What became known with a keyframe.
 
-    reference: int
-    T_camera_reference: FloatArray
-    information: FloatArray
+    Attributes
+    ----------
+    keyframe : Keyframe
+        The new one.
+    poses : dict of int to (4, 4) float64
+        T_world_keyframe of all, as estimated now.
+    closures : tuple of LoopClosure
+        Loops that it closed.
+    links : tuple of Link
+        All links that hold.
+    placed : frozenset of int
+        Keyframes that hang together with the first.
+    """
+
+    keyframe: Keyframe
+    poses: dict[int, FloatArray]
+    closures: tuple[LoopClosure, ...]
+    links: tuple[Link, ...]
+    placed: frozenset[int]
 
 
 class Mapper:
@@ -63,45 +90,67 @@ class Mapper:
         noise: SensorNoise,
         linker: Linker,
         loops: LoopCloser,
+        window: Window,
         graph: PoseGraph,
         seed: int = 0,
     ) -> None:
         self.settings, self.planes, self.cloud, self.noise = settings, planes, cloud, noise
         self.linker, self.loops, self.graph, self.seed = linker, loops, graph, seed
+        self.window = window
         self.keyframes: dict[int, Keyframe] = {}
         self.closures: list[LoopClosure] = []
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
 
-    def start(self, view: View, T_world_camera: FloatArray) -> int:
-        """Make the first keyframe; return its id."""
-        keyframe = self._keep(view)
-        self.graph.add_keyframe(keyframe.id, T_world_camera)
-        self.keyframes[keyframe.id] = keyframe
-        self.graph.optimise()
-        self.loops.index.add(keyframe.id, self.loops.index.words_of(keyframe.features.descriptors))
-        return keyframe.id
+    def start(self, keyframe_id: int, view: View, T_world_camera: FloatArray) -> MapUpdate:
+        """Make the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
+        keyframe = self._keep(keyframe_id, view)
+        self.graph.add_keyframe(keyframe.id, T_world_camera, starts_component=True)
+        self.window.add(keyframe)
+        return self._finish(view, keyframe)
 
-    def insert(self, view: View, located: Located | Coarse) -> tuple[int, tuple[LoopClosure, ...]]:
-        """Make a keyframe of a view with a pose; return its id and the loops it closes."""
-        reference, T = _pose_of(located)
-        keyframe = self._keep(view)
-        self.graph.add_keyframe(keyframe.id, self.graph[reference] @ poses.inverse(T))
-        self.keyframes[keyframe.id] = keyframe
-        for link in self._links(view, keyframe, located):
+    def insert(self, keyframe_id: int, view: View, estimate: Estimate) -> MapUpdate:
+        """Make a keyframe of a view whose pose is known; link it to those around."""
+        keyframe = self._keep(keyframe_id, view)
+        T_world_camera = self.graph[estimate.reference] @ estimate.anchor.T_keyframe_camera
+        self.graph.add_keyframe(keyframe.id, T_world_camera)
+        self.window.add(keyframe)
+        for link in self._links(view, keyframe, estimate):
             self._add(link)
+        self.keyframes[keyframe.id] = keyframe
+        self._adjust(keyframe.id)
+        return self._finish(view, keyframe)
+
+    def _adjust(self, newest: int) -> None:
+        """Adjust the latest keyframes on their landmarks, and take their links from that."""
+        if not self.window.settings.enabled:
+            return
+        self.graph.optimise()
+        T_world = self.graph.poses
+        latest = [k for k in sorted(T_world)[-self.window.settings.size :]]
+        around = set(latest).union(*(self._neighbours[k] for k in latest))
+        adjusted = self.window.adjust(newest, around, self.keyframes, T_world)
+        if adjusted:
+            self.graph.measure_again(adjusted, since=min(set(adjusted) & set(latest)))
+
+    def _finish(self, view: View, keyframe: Keyframe) -> MapUpdate:
+        """Close loops and bring all poses up to date."""
+        self.keyframes[keyframe.id] = keyframe
         known = self._neighbours[keyframe.id].union(
             *(self._neighbours[k] for k in self._neighbours[keyframe.id])
         )
         measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
-        for loop in measured:
-            self._add(loop.link)
+        for link in (link for loop in measured for link in loop.links):
+            self._add(link)
         closures = tuple(
             LoopClosure(loop.link.second, loop.link.first, loop.inliers) for loop in measured
         )
         self.closures.extend(closures)
         for link in self.graph.optimise():
             self._forget(link)
-        return keyframe.id, closures
+        return MapUpdate(
+            keyframe, self.graph.poses, closures, tuple(self.graph.links),
+            frozenset(self.graph.members_of(self.graph.component_of(0))),
+        )  # fmt: skip
 
     def around(self, reference: int) -> LocalMap:
         """Return the points of a keyframe and of those linked to it that look the same way."""
@@ -113,26 +162,7 @@ class Mapper:
         chosen = [reference, *(k for _, k in sorted(ranked)[: self.settings.neighbours])]
         return local_map([(self.keyframes[k], self.graph[k]) for k in chosen])
 
-    def wants(self, view: View, located: Located) -> bool:
-        """Whether a view should become a keyframe: it shows new space, or is losing touch."""
-        T = located.motion.T_camera_reference
-        reference = self.keyframes[located.local_map.reference]
-        points = reference.points[np.isfinite(reference.points[:, 2])]
-        moved = poses.transform(T, points)
-        ahead = moved[moved[:, 2] > 0.1]
-        pixels = view.frame.intrinsics.project(ahead)
-        size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
-        overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / max(1, len(points))
-        features = int(view.has_point.sum())
-        depth = float(np.median(points[:, 2])) if len(points) else 1.0
-        return bool(
-            overlap < self.settings.min_overlap
-            or located.inliers < self.settings.min_explained * features
-            or np.linalg.norm(T[:3, 3]) > self.settings.max_baseline_share * depth
-            or np.degrees(poses.rotation_angle(T)) > self.settings.max_angle_deg
-        )
-
-    def _keep(self, view: View) -> Keyframe:
+    def _keep(self, keyframe_id: int, view: View) -> Keyframe:
         frame = view.frame
         image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
         planes = (
@@ -140,26 +170,34 @@ class Mapper:
             if self.planes.enabled
             else ()
         )
-        keyframe = Keyframe(
-            len(self.keyframes), frame.index, frame.stamp_s, view.features, view.points_camera,
+        return Keyframe(
+            keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
             planes, image, frame.intrinsics,
         )  # fmt: skip
-        return keyframe
 
-    def _links(self, view: View, keyframe: Keyframe, located: Located | Coarse) -> list[Link]:
-        if isinstance(located, Located):
+    def _links(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Link]:
+        """Measure the motion to each keyframe around; add how it was tracked unless by these."""
+        located = self.linker.tracker.guided(
+            view, self.around(estimate.reference), estimate.T_camera_reference, scale=0.25
+        )
+        links = []
+        if located is not None:
             measured = self.linker.from_tracking(view, keyframe, self.keyframes, located)
-            if measured:
-                return [m.link for m in measured]
-            reference, T, information = (
-                located.local_map.reference,
-                located.motion.T_camera_reference,
-                located.motion.information,
-            )
-        else:
-            reference, T = located.reference, located.T_camera_reference
-            information = located.information
-        return [Link(reference, keyframe.id, poses.inverse(T), information, is_loop=False)]
+            owners = located.local_map.owners[located.matches[:, 0]]
+            for owner in np.unique(owners).tolist():
+                chosen = located.matches[owners == owner]
+                rows = np.column_stack([located.local_map.rows[chosen[:, 0]], chosen[:, 1]])
+                self.window.match(keyframe, self.keyframes[owner], rows)
+            links = [link for m in measured for link in m.links]
+        if not links:
+            T = estimate.anchor.T_keyframe_camera
+            links.append(
+                Link(
+                    estimate.reference, keyframe.id, T, estimate.information, is_loop=False,
+                    by="depth",
+                )
+            )  # fmt: skip
+        return links
 
     def _add(self, link: Link) -> None:
         self.graph.add_link(link)
@@ -172,9 +210,3 @@ class Mapper:
         self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
         self._neighbours[rejected.first].discard(rejected.second)
         self._neighbours[rejected.second].discard(rejected.first)
-
-
-def _pose_of(located: Located | Coarse) -> tuple[int, FloatArray]:
-    if isinstance(located, Located):
-        return located.local_map.reference, located.motion.T_camera_reference
-    return located.reference, located.T_camera_reference

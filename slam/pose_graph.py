@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import gtsam
@@ -81,6 +83,10 @@ class PoseGraph:
         self._row(keyframe)
         return self._connections.component_of(keyframe)
 
+    def members_of(self, component: int) -> list[int]:
+        """Return the keyframes of the sub-map with this oldest keyframe."""
+        return self._connections.members_of(component)
+
     def linked_way(self, first: int, second: int, limit: float) -> float:
         """Return the length of the shortest way along links, infinite if beyond `limit` metres."""
         return self._connections.ways_from(first, limit, second).get(second, float("inf"))
@@ -138,6 +144,30 @@ class PoseGraph:
         self._numbers.append(self._solver.add_link(link))
         for keyframe in (link.first, link.second):
             self._touched.update((keyframe, *self._connections.linked(keyframe)))
+
+    def measure_again(self, T_world: Mapping[int, FloatArray], since: int) -> None:
+        """Take the motion between keyframes from poses that were adjusted together.
+
+        Only links by features that close no loop are changed.
+
+        Parameters
+        ----------
+        T_world : mapping of int to (4, 4) float64
+            The poses.
+        since : int
+            No keyframe before it was moved.
+        """
+        for place in reversed(range(len(self.links))):
+            link = self.links[place]
+            if link.is_loop or link.by != "features":
+                continue
+            if link.second < since:
+                break
+            if link.first in T_world and link.second in T_world:
+                T = poses.inverse(T_world[link.first]) @ T_world[link.second]
+                self.links[place] = replace(link, T_first_second=T)
+                self._solver.remove(self._numbers[place])
+                self._numbers[place] = self._solver.add_link(self.links[place])
 
     def optimise(self) -> list[Link]:
         """Take the new keyframes and links in and update all poses.

@@ -121,10 +121,13 @@ def _weights(
 ) -> FloatArray:
     """Return the inverse covariances (N, 3, 3) of the residuals."""
     along = (J[:, :, 3:] @ (spread @ T[:3, :3].T)[..., None])[..., 0]
-    covariance = along[:, :, None] * along[:, None, :]
-    covariance[:, 0, 0] += noise.pixel**2
-    covariance[:, 1, 1] += noise.pixel**2
-    depths = np.where(np.isfinite(found.depths), found.depths, 1.0)
-    sigma = noise.depth_sigma(depths) / depths**2
-    covariance[:, 2, 2] += np.where(np.isfinite(found.depths), sigma, NO_READING) ** 2
-    return np.asarray(np.linalg.inv(covariance))
+    known = np.isfinite(found.depths)
+    depths = np.where(known, found.depths, 1.0)
+    inverse = np.full(along.shape, noise.pixel**-2)
+    inverse[:, 2] = np.where(known, depths**2 / noise.depth_sigma(depths), 1 / NO_READING) ** 2
+    # The covariance is a diagonal and one column times itself: inverted after Sherman & Morrison.
+    scaled = inverse * along
+    weights = -scaled[:, :, None] * scaled[:, None, :]
+    weights /= (1.0 + (scaled * along).sum(axis=1))[:, None, None]
+    weights[:, (0, 1, 2), (0, 1, 2)] += inverse
+    return weights

@@ -12,28 +12,46 @@ from datasets import poses
 from datasets.frame import Frame
 from datasets.settings import Settings
 from slam.appearance import AppearanceSettings
+from slam.backend import Backend
+from slam.estimate import Estimate
 from slam.features import FeatureExtractor, FeatureSettings
+from slam.flow import FlowSettings, FlowTracker
 from slam.ground import GroundSettings
 from slam.icp import IcpSettings
 from slam.keyframe import Keyframe
 from slam.linker import Linker
 from slam.local_map import LocalMap
+from slam.localiser import Localiser, estimate_of
 from slam.loops import LoopCloser, LoopSettings
 from slam.map import LiveMap, MapSettings, PointMap, build_map
-from slam.mapper import Coarse, KeyframeSettings, Mapper
+from slam.mapper import KeyframeSettings, Mapper
 from slam.motion import MotionSettings
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings
-from slam.pose_graph import PoseGraph, PoseGraphSettings
+from slam.pose_graph import Link, PoseGraph, PoseGraphSettings
 from slam.space import SpaceSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
-from slam.tracker import Located, Tracker, TrackerSettings
-from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
-from slam.view import View, see
+from slam.tracker import Tracker, TrackerSettings
+from slam.tracking import Anchor, Tracking, TrackingState
+from slam.view import View
+from slam.window import Window, WindowSettings
 
 logger = logging.getLogger(__name__)
 
 FloatArray = NDArray[np.float64]
+
+
+class LossSettings(Settings):
+    """What happens when the camera is lost."""
+
+    submaps: bool = Field(True, description="begin a sub-map where the camera is not found again")
+    min_features: int = Field(
+        100, ge=15, description="features with depth that a sub-map begins with, at least"
+    )
+    reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
+    speed_m_s: float = Field(
+        1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
+    )
 
 
 class SlamSettings(Settings):
@@ -43,14 +61,17 @@ class SlamSettings(Settings):
     features: FeatureSettings = FeatureSettings()
     noise: SensorNoise = SensorNoise()
     motion: MotionSettings = MotionSettings()
+    flow: FlowSettings = FlowSettings()
     tracker: TrackerSettings = TrackerSettings()
     keyframes: KeyframeSettings = KeyframeSettings()
+    window: WindowSettings = WindowSettings()
     planes: PlaneSettings = PlaneSettings()
     icp: IcpSettings = IcpSettings()
     loops: LoopSettings = LoopSettings()
     appearance: AppearanceSettings = AppearanceSettings()
     pose_graph: PoseGraphSettings = PoseGraphSettings()
     textureless: TexturelessSettings = TexturelessSettings()
+    loss: LossSettings = LossSettings()
     map: MapSettings = MapSettings()
     ground: GroundSettings = GroundSettings()
     space: SpaceSettings = SpaceSettings()
@@ -78,189 +99,231 @@ class Slam:
         self.mapper = Mapper(
             settings.keyframes, settings.planes, settings.map, settings.noise, linker,
             LoopCloser(settings.loops, settings.appearance, linker),
+            Window(settings.window, settings.noise),
             PoseGraph(settings.pose_graph), seed,
         )  # fmt: skip
-        self._depth_odometry = DepthOdometry(
+        self._backend = Backend(self.mapper)
+        depth = DepthOdometry(
             settings.textureless, settings.planes, settings.icp, settings.noise, seed
         )
+        self._localiser = Localiser(
+            FlowTracker(settings.flow, settings.noise), self._tracker, depth,
+            lambda: self._backend.poses, self._around,
+        )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
-        self._around: LocalMap | None = None
-        self._last: Anchor | None = None
-        self._last_view: View | None = None
-        # Of the last pose, relative to its keyframe, in the camera's frame.
-        self._covariance: FloatArray = np.zeros((6, 6))
-        self._velocity = np.eye(4)
-        self._lost = False
+        # Points of the keyframe tracked against, in its camera: how much of it is still in view.
+        self._outline: FloatArray = np.empty((0, 3))
+        self._has_begun = self._is_lost = self._needs_features = False
+        self._last_seen_s = 0.0
 
     def prepare(self, frame: Frame) -> View:
-        """Find a frame's features: the part that needs no state and may run ahead in a thread."""
-        return see(frame, self._extractor, self.settings.max_depth_m)
+        """Do the part that needs no state and may run ahead in a thread."""
+        view = View(frame, self._extractor, self.settings.max_depth_m)
+        if self._needs_features:
+            view.describe()
+        return view
 
     def process(self, frame: Frame | View) -> Tracking:
         """Take the next frame in and say where the camera is."""
         view = frame if isinstance(frame, View) else self.prepare(frame)
-        if not view.has_point.any() and not (view.frame.depth > 0).any():
-            self._velocity = np.eye(4)
-            return self._without_pose(view, TrackingState.SKIPPED)
-        if self._around is None:
+        if not self._has_begun:
             return self._begin(view)
-        located = self._locate(view)
-        if located is None:
-            logger.info("frame %d: lost", view.frame.index)
-            self._lost, self._velocity = True, np.eye(4)
-            return self._without_pose(view, TrackingState.LOST)
-        return self._accept(view, located)
+        estimate = self._localiser.locate(view) or self._relocalise(view)
+        self._needs_features = estimate is None or estimate.method != "flow"
+        if estimate is None:
+            return self._lose(view)
+        return self._accept(view, estimate)
+
+    def finish(self) -> None:
+        """Wait for the keyframes in the making: poses and map are final then."""
+        self._backend.finish()
 
     @property
     def keyframes(self) -> dict[int, Keyframe]:
-        """All keyframes by id."""
-        return self.mapper.keyframes
+        """The keyframes by id, but for those in the making."""
+        return self._backend.keyframes
 
     @property
     def keyframe_poses(self) -> dict[int, FloatArray]:
         """T_world_keyframe (4, 4) of all keyframes, as estimated now."""
-        return self.mapper.graph.poses
+        return self._backend.poses
 
     def pose_of(self, anchor: Anchor) -> FloatArray:
         """Return T_world_camera (4, 4) of an anchored pose, as estimated now."""
-        return np.asarray(self.mapper.graph[anchor.keyframe] @ anchor.T_keyframe_camera)
+        return np.asarray(self._backend.poses[anchor.keyframe] @ anchor.T_keyframe_camera)
+
+    @property
+    def links(self) -> tuple[Link, ...]:
+        """The links between keyframes that are not in the making."""
+        return self._backend.links
+
+    def is_placed(self, anchor: Anchor) -> bool:
+        """Whether it is known where in the world a pose is: not so in a sub-map joined to nothing.
+
+        The world is the sub-map of the first keyframe.
+        """
+        return anchor.keyframe in self._backend.placed
 
     def build_map(self) -> PointMap:
-        """Fuse all keyframes' points at their present poses."""
-        return build_map(
-            self.keyframes.values(), self.keyframe_poses, self.settings.map, self.settings.noise
-        )
+        """Fuse all keyframes' points that have a place in the world, at their present poses."""
+        placed = [k for k in self.keyframes.values() if k.id in self._backend.placed]
+        return build_map(placed, self.keyframe_poses, self.settings.map, self.settings.noise)
 
     def sketch_map(self) -> PointMap:
         """Return a coarse map to look at while the run goes on."""
         return self._live_map.update(self.keyframes, self.keyframe_poses)
 
+    def _around(self, keyframe: int) -> LocalMap:
+        self._backend.finish()
+        return self.mapper.around(keyframe)
+
     def _begin(self, view: View) -> Tracking:
-        keyframe = self.mapper.start(view, np.eye(4))
-        self._around = self.mapper.around(keyframe)
-        return self._report(
-            view, TrackingState.OK, int(view.has_point.sum()), "features",
-            Anchor(keyframe, np.eye(4)), is_keyframe=True,
-        )  # fmt: skip
+        """Start the map with the first frame that shows anything in depth."""
+        if not view.has_depth:
+            return _without_pose(view, TrackingState.SKIPPED)
+        self._has_begun = True
+        return self._make_keyframe(view, self._backend.start(view, np.eye(4)), TrackingState.OK)
 
-    def _locate(self, view: View) -> Located | Coarse | None:
-        """Find the pose: by features, by depth alone, or among all keyframes if lost."""
-        assert self._around is not None
-        if self._lost:
-            return self._relocalise(view)
-        return (
-            self._tracker.track(view, self._around, self._prediction())
-            or self._by_depth(view)
-            or self._relocalise(view)
-        )
+    def _relocalise(self, view: View) -> Estimate | None:
+        """Look for the view among the keyframes that look alike, not far from where it was lost.
 
-    def _prediction(self) -> FloatArray | None:
-        """Return T_camera_reference if the camera goes on as it did."""
-        if self._last is None or self._around is None:
-            return None
-        T_camera_world = self._velocity @ poses.inverse(self.pose_of(self._last))
-        # A prediction feeds the next one: left alone, rounding errors double with each frame.
-        return poses.orthonormal(T_camera_world @ self.mapper.graph[self._around.reference])
-
-    def _by_depth(self, view: View) -> Coarse | None:
-        """Carry on from the last frame with a pose by depth alone."""
-        if not self.settings.textureless.enabled or self._last is None or self._last_view is None:
-            return None
-        if not self._depth_odometry.is_tracking:
-            self._depth_odometry.remember(self._last_view.frame)
-        step = self._depth_odometry.register(view.frame, self._velocity)
-        if step is None:
-            return None
-        T_camera_reference = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
-        # The step's error comes on top of that of the pose it starts from.
-        carried = poses.adjoint(step.T_camera_last)
-        covariance = carried @ self._covariance @ carried.T + np.linalg.inv(step.information)
-        return Coarse(self._last.keyframe, T_camera_reference, np.linalg.inv(covariance))
-
-    def _relocalise(self, view: View) -> Located | None:
-        """Look for the view among the keyframes last seen and those that look alike."""
-        assert self._around is not None
-        candidates = [self._around.reference, *self.mapper.loops.alike(view, 4)]
-        for candidate in dict.fromkeys(candidates):
-            located = self._tracker.track(view, self.mapper.around(candidate), None)
-            if located is not None and located.inliers >= self.settings.loops.min_inliers:
-                self._lost = True
-                return located
+        Further off it may be a place that merely looks the same: then a sub-map waits for several
+        keyframes to agree on where it belongs.
+        """
+        self._backend.finish()
+        seconds = max(0.0, view.frame.stamp_s - self._last_seen_s)
+        reach = self.settings.loss.reach_m + self.settings.loss.speed_m_s * seconds
+        here = self._localiser.T_world_camera[:3, 3]
+        for candidate in self.mapper.loops.alike(view, 4):
+            located = self._tracker.locate(view, self.mapper.around(candidate))
+            if located is None or not self.mapper.loops.is_sound(
+                located.inliers, located.motion.T_camera_reference, view, self.keyframes[candidate]
+            ):
+                continue
+            estimate = estimate_of(located, view)
+            if np.linalg.norm(self.pose_of(estimate.anchor)[:3, 3] - here) < reach:
+                self._is_lost = True
+                return estimate
         return None
 
-    def _accept(self, view: View, located: Located | Coarse) -> Tracking:
-        """Move on to a located view: keyframe or not, and what to track against next."""
-        state = TrackingState.RELOCALISED if self._lost else TrackingState.OK
-        closures: tuple[LoopClosure, ...] = ()
-        if isinstance(located, Located):
-            inliers, method = located.inliers, "features"
-            self._depth_odometry.forget()
-            anchor = _anchor(located.local_map.reference, located.motion.T_camera_reference)
-            is_keyframe = self.mapper.wants(view, located)
-            information = located.motion.information
-        else:
-            inliers, method = 0, "depth"
-            anchor = _anchor(located.reference, located.T_camera_reference)
-            is_keyframe = self._far(anchor)
-            information = located.information
-        self._covariance = np.asarray(np.linalg.inv(information + 1e-6 * np.eye(6)))
-        self._follow(anchor)
-        if is_keyframe:
-            keyframe, closures = self.mapper.insert(view, located)
-            anchor = Anchor(keyframe, np.eye(4))
-            self._covariance = np.zeros((6, 6))
-        self._settle(located, anchor, is_keyframe)
-        self._last, self._last_view, self._lost = anchor, view, False
-        return self._report(view, state, inliers, method, anchor, is_keyframe, closures)
+    def _lose(self, view: View) -> Tracking:
+        """Say that the camera is lost, and begin a sub-map if there is enough to begin with."""
+        self._localiser.stand_still()
+        if not view.has_depth:
+            return _without_pose(view, TrackingState.SKIPPED)
+        logger.info("frame %d: lost", view.frame.index)
+        self._is_lost = True
+        loss = self.settings.loss
+        if not loss.submaps or view.has_point.sum() < loss.min_features:
+            return _without_pose(view, TrackingState.LOST)
+        keyframe = self._backend.start(view, self._localiser.T_world_camera)
+        self._is_lost = False
+        return self._make_keyframe(view, keyframe, TrackingState.LOST)
 
-    def _far(self, anchor: Anchor) -> bool:
-        T = anchor.T_keyframe_camera
-        return bool(
-            np.linalg.norm(T[:3, 3]) > 0.3
-            or np.degrees(poses.rotation_angle(T)) > self.settings.keyframes.max_angle_deg
+    def _accept(self, view: View, estimate: Estimate) -> Tracking:
+        """Move on to a located view: make it a keyframe, or at least what to track against."""
+        state = TrackingState.RELOCALISED if self._is_lost else TrackingState.OK
+        if self._is_lost:
+            self._localiser.stand_still()
+        self._is_lost, self._last_seen_s = False, view.frame.stamp_s
+        if self._wants_keyframe(view, estimate):
+            known = self._known(view, estimate)
+            if known is None:
+                keyframe = self._backend.insert(view, estimate)
+                return self._make_keyframe(view, keyframe, state, estimate)
+            estimate = known
+        anchor = estimate.anchor
+        self._localiser.moved_to(view, anchor, estimate)
+        if estimate.method == "features":
+            self._localiser.follow(view, anchor)
+            points = self.keyframes[anchor.keyframe].points
+            self._outline = points[np.isfinite(points[:, 2])]
+        return self._report(view, state, anchor, estimate)
+
+    def _known(self, view: View, estimate: Estimate) -> Estimate | None:
+        """Return a view's pose by an older keyframe that saw the same, so that none is needed.
+
+        Only where it agrees with the way tracked: otherwise a loop is to be closed first.
+        """
+        settings = self.settings.keyframes
+        other = None if estimate.method == "depth" else self._nearest(estimate)
+        if other is None:
+            return None
+        self._backend.finish()
+        T_world_camera = self.pose_of(estimate.anchor)
+        T_camera_other = poses.inverse(T_world_camera) @ self._backend.poses[other]
+        located = self._tracker.guided(view, self.mapper.around(other), T_camera_other)
+        if located is None:
+            return None
+        known = estimate_of(located, view)
+        off = poses.inverse(T_camera_other) @ known.T_camera_reference
+        agrees = (
+            np.linalg.norm(off[:3, 3]) < settings.same_m
+            and np.degrees(poses.rotation_angle(off)) < settings.same_deg
         )
+        return known if agrees and known.support > settings.min_explained else None
 
-    def _follow(self, anchor: Anchor) -> None:
-        """Take the step from the last frame as the velocity."""
-        if self._last is None or self._lost:
-            self._velocity = np.eye(4)
-            return
-        self._velocity = poses.inverse(self.pose_of(anchor)) @ self.pose_of(self._last)
+    def _nearest(self, estimate: Estimate) -> int | None:
+        """Return the keyframe that sees most nearly the same, but for the one tracked against."""
+        others = [k for k in self._backend.poses if k != estimate.reference]
+        if not others or not len(self._outline):
+            return None
+        T_world_camera = self.pose_of(estimate.anchor)
+        T = poses.inverse(T_world_camera) @ np.array([self._backend.poses[k] for k in others])
+        settings, depth = self.settings.keyframes, float(np.median(self._outline[:, 2]))
+        away = np.linalg.norm(T[:, :3, 3], axis=1) / (settings.max_baseline_share * depth)
+        cosine = (np.trace(T[:, :3, :3], axis1=1, axis2=2) - 1) / 2
+        turned = np.degrees(np.arccos(np.clip(cosine, -1, 1))) / settings.max_angle_deg
+        nearest = int((away + turned).argmin())
+        return others[nearest] if away[nearest] + turned[nearest] < 1 else None
 
-    def _settle(self, located: Located | Coarse, anchor: Anchor, is_keyframe: bool) -> None:
-        """Choose the keyframe to track against: the new one, or the one that shares most."""
-        assert self._around is not None
-        reference = anchor.keyframe
-        if isinstance(located, Located) and not is_keyframe:
-            counts = located.matches_by_owner()
-            best = max(counts, key=lambda k: (counts[k], k))
-            if counts[best] > 1.2 * counts.get(reference, 0):
-                reference = best
-        if reference != self._around.reference or is_keyframe:
-            self._around = self.mapper.around(reference)
+    def _make_keyframe(
+        self, view: View, keyframe: int, state: TrackingState, estimate: Estimate | None = None
+    ) -> Tracking:
+        """Track against a view that has just become a keyframe."""
+        self._last_seen_s = view.frame.stamp_s
+        anchor = Anchor(keyframe, np.eye(4))
+        self._localiser.moved_to(view, anchor, None)
+        self._outline = self._localiser.follow(view, anchor).points
+        return self._report(view, state, anchor, estimate, is_keyframe=True)
+
+    def _wants_keyframe(self, view: View, estimate: Estimate) -> bool:
+        """Whether a view shows new space, or is losing touch with its keyframe."""
+        settings, T = self.settings.keyframes, estimate.T_camera_reference
+        turned = np.degrees(poses.rotation_angle(T)) > settings.max_angle_deg
+        if estimate.method == "depth" or not len(self._outline):
+            return bool(turned or np.linalg.norm(T[:3, 3]) > 0.3)
+        moved = poses.transform(T, self._outline)
+        ahead = moved[moved[:, 2] > 0.1]
+        pixels = view.frame.intrinsics.project(ahead)
+        size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
+        overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / len(self._outline)
+        depth = float(np.median(self._outline[:, 2]))
+        return bool(
+            turned
+            or overlap < settings.min_overlap
+            or estimate.support
+            < (settings.min_followed if estimate.method == "flow" else settings.min_explained)
+            or np.linalg.norm(T[:3, 3]) > settings.max_baseline_share * depth
+        )
 
     def _report(
         self,
         view: View,
         state: TrackingState,
-        inliers: int,
-        method: str,
         anchor: Anchor,
-        is_keyframe: bool,
-        closures: tuple[LoopClosure, ...] = (),
+        estimate: Estimate | None,
+        is_keyframe: bool = False,
     ) -> Tracking:
-        self._last, self._last_view = anchor, view
+        seen = np.empty((0, 2)) if estimate is None else estimate.pixels
+        inliers = len(self._outline) if estimate is None else estimate.inliers
         return Tracking(
-            view.frame.index, view.frame.stamp_s, state, inliers, method, anchor,
-            self.pose_of(anchor), is_keyframe, closures, view.features,
-        )  # fmt: skip
-
-    def _without_pose(self, view: View, state: TrackingState) -> Tracking:
-        return Tracking(
-            view.frame.index, view.frame.stamp_s, state, 0, "none", None, None, False, (),
-            view.features,
+            view.frame.index, view.frame.stamp_s, state, inliers,
+            "features" if estimate is None else estimate.method, anchor, self.pose_of(anchor),
+            is_keyframe, self._backend.closures(), seen,
+            view if view.is_described or is_keyframe else None,
         )  # fmt: skip
 
 
-def _anchor(reference: int, T_camera_reference: FloatArray) -> Anchor:
-    return Anchor(reference, poses.inverse(T_camera_reference))
+def _without_pose(view: View, state: TrackingState) -> Tracking:
+    return Tracking(view.frame.index, view.frame.stamp_s, state, 0, "none", None, None, False)

@@ -61,6 +61,8 @@ class Link:
         In the second's frame: rotation, then translation.
     is_loop : bool
         Whether it closes a loop.
+    by : str
+        What it was measured by: ``features``, ``planes``, ``surface`` or ``depth``.
     """
 
     first: int
@@ -68,6 +70,7 @@ class Link:
     T_first_second: FloatArray
     information: FloatArray
     is_loop: bool
+    by: Literal["features", "planes", "surface", "depth"] = "features"
 
 
 def covariance_of(link: Link, settings: PoseGraphSettings) -> FloatArray:

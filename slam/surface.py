@@ -11,6 +11,7 @@ from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
 from slam.noise import SensorNoise
+from slam.range_image import RangeImage
 from slam.view import EDGE_SHARE, without_edges
 
 FloatArray = NDArray[np.float64]
@@ -81,6 +82,19 @@ def surface_of(frame: Frame, stride: int) -> Surface:
         steep | (length == 0), np.nan, normal / np.maximum(length, 1e-12)
     )
     return Surface(points, normals, frame.intrinsics, stride)
+
+
+def surface_of_image(image: RangeImage, noise: SensorNoise) -> Surface:
+    """Return the surface of a keyframe's thinned depth."""
+    seen = image.depth_mm > 0
+    points = np.full((*seen.shape, 3), np.nan)
+    normals = np.full((*seen.shape, 3), np.nan)
+    points[seen] = image.points
+    found = image.normals(noise)
+    known = found.any(axis=1)
+    rows, columns = np.nonzero(seen)
+    normals[rows[known], columns[known]] = found[known]
+    return Surface(points, normals, image.intrinsics, 1)
 
 
 def align_surface(

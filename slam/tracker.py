@@ -84,7 +84,7 @@ class Tracker:
         fails, or without a prediction, everywhere.
         """
         if T_camera_reference is not None:
-            found = self._guided(view, around, T_camera_reference)
+            found = self.guided(view, around, T_camera_reference)
             if found is not None and found.inliers >= self.settings.guided_inliers:
                 return found
         return self.locate(view, around)
@@ -97,16 +97,20 @@ class Tracker:
             pairs[:, 0] = rows[pairs[:, 0]]
             coarse = self._solve(view, around, pairs)
             if coarse is not None:
-                finer = self._guided(view, around, coarse.motion.T_camera_reference, scale=0.25)
+                finer = self.guided(view, around, coarse.motion.T_camera_reference, scale=0.25)
                 better = finer is not None and finer.inliers > coarse.inliers
                 return finer if better else coarse
             if len(own) == len(around.points):
                 break
         return None
 
-    def _guided(
+    def guided(
         self, view: View, around: LocalMap, T_camera_reference: FloatArray, scale: float = 1.0
     ) -> Located | None:
+        """Return the view's pose from points looked for where a prediction puts them only.
+
+        `scale` narrows the search radius.
+        """
         intrinsics = view.frame.intrinsics
         radius = self.settings.search_share * scale * intrinsics.width
         rows, predicted = around.visible(T_camera_reference, intrinsics, radius)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slam.features import Features
+from slam.view import View
 
 
 class TrackingState(StrEnum):
@@ -72,8 +73,10 @@ class Tracking:
         Whether the frame became keyframe ``anchor.keyframe``.
     closures : tuple of LoopClosure
         Loops that this frame closed.
-    features : Features
-        The frame's features, shared with the high layer.
+    pixels : (N, 2) float64
+        Where the image shows the corners or features that agree with the pose.
+    view : View or None
+        The frame itself, where its features were found on the way: keyframes above all.
     """
 
     index: int
@@ -84,9 +87,18 @@ class Tracking:
     anchor: Anchor | None
     T_world_camera: NDArray[np.float64] | None
     is_keyframe: bool
-    closures: tuple[LoopClosure, ...]
-    features: Features
+    closures: tuple[LoopClosure, ...] = ()
+    pixels: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)))
+    view: View | None = None
 
-    def without_features(self) -> Tracking:
-        """Return the same account without the features, small enough to keep for every frame."""
-        return replace(self, features=Features.none())
+    @property
+    def features(self) -> Features:
+        """The features, shared with the high layer; none of frames tracked without.
+
+        Waits for those of a keyframe in the making.
+        """
+        return Features.none() if self.view is None else self.view.features
+
+    def without_view(self) -> Tracking:
+        """Return the same account without the frame, small enough to keep for every frame."""
+        return replace(self, view=None, pixels=np.empty((0, 2)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from threading import Lock
 
 import cv2
 import numpy as np
@@ -16,39 +16,71 @@ from slam.features import FeatureExtractor, Features
 EDGE_SHARE = 0.05
 
 
-@dataclass(frozen=True, slots=True)
 class View:
-    """A frame with its features.
+    """A frame with its grey image, and its features once they are asked for.
+
+    Features are found only once, by whichever thread first asks. Most frames are tracked without.
+
+    Parameters
+    ----------
+    frame : Frame
+        Depth beyond `max_depth_m` counts as no reading.
+    extractor : FeatureExtractor
+        Finds the features.
+    max_depth_m : float
+        Metres.
 
     Attributes
     ----------
     frame : Frame
-        Where it comes from; depth beyond the range is already 0.
-    features : Features
-        N features.
-    points_camera : (N, 3) float64
-        Where the features lie, metres; NaN where there is no trustworthy depth.
+        Where it comes from; depth beyond the range is 0.
+    grey : (H, W) uint8
+        Its image.
     """
 
-    frame: Frame
-    features: Features
-    points_camera: NDArray[np.float64]
+    def __init__(self, frame: Frame, extractor: FeatureExtractor, max_depth_m: float) -> None:
+        depth = np.where(frame.depth <= max_depth_m, frame.depth, np.float32(0))
+        self.frame = Frame(frame.index, frame.stamp_s, frame.colour, depth, frame.intrinsics)
+        self.grey = cv2.cvtColor(frame.colour, cv2.COLOR_RGB2GRAY)
+        self._extractor = extractor
+        self._described: tuple[Features, NDArray[np.float64]] | None = None
+        self._lock = Lock()
+
+    @property
+    def features(self) -> Features:
+        """N features."""
+        return self.describe()[0]
+
+    @property
+    def points_camera(self) -> NDArray[np.float64]:
+        """Where the features lie (N, 3), metres; NaN where there is no trustworthy depth."""
+        return self.describe()[1]
 
     @property
     def has_point(self) -> NDArray[np.bool_]:
         """Which features (N,) have depth."""
         return np.isfinite(self.points_camera[:, 2])
 
+    @property
+    def has_depth(self) -> bool:
+        """Whether there is any reading at all."""
+        return bool(self.frame.depth.any())
 
-def see(frame: Frame, extractor: FeatureExtractor, max_depth_m: float) -> View:
-    """Find a frame's features and where they lie; stateless, so it may run ahead in a thread."""
-    depth = np.where(frame.depth <= max_depth_m, frame.depth, np.float32(0))
-    frame = Frame(frame.index, frame.stamp_s, frame.colour, depth, frame.intrinsics)
-    features = extractor.extract(frame)
-    z = depth_at(depth, features.pixels)
-    points = frame.intrinsics.backproject(features.pixels, z)
-    points[z <= 0] = np.nan
-    return View(frame, features, points)
+    @property
+    def is_described(self) -> bool:
+        """Whether the features have been found."""
+        return self._described is not None
+
+    def describe(self) -> tuple[Features, NDArray[np.float64]]:
+        """Find the features and their points now, if that has not been done."""
+        with self._lock:
+            if self._described is None:
+                features = self._extractor.extract_image(self.grey)
+                z = depth_at(self.frame.depth, features.pixels)
+                points = self.frame.intrinsics.backproject(features.pixels, z)
+                points[z <= 0] = np.nan
+                self._described = features, points
+            return self._described
 
 
 def depth_at(depth: NDArray[np.float32], pixels: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -169,8 +169,8 @@ def test_interruption_keeps_what_was_done(rendered_walk, tmp_path, monkeypatch, 
 
     label = Pipeline._label
 
-    def interrupted(self, view, tracking):
-        label(self, view, tracking)
+    def interrupted(self, tracking):
+        label(self, tracking)
         if tracking.index == 20:
             raise KeyboardInterrupt
 

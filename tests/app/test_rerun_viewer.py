@@ -23,7 +23,6 @@ from datasets.frame import Frame
 from datasets.poses import pose
 from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
 from semantics.labels import LabelSpace
-from slam.features import Features
 from slam.map import PointMap
 from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 
@@ -46,12 +45,11 @@ def tracking_of(index: int) -> Tracking:
     state = TrackingState.LOST if index == LOST else TrackingState.OK
     state = TrackingState.RELOCALISED if index == LOST + 1 else state
     pixels = np.array([[5.0, 5.0], [60.0, 40.0], [50.0, 20.0]])
-    features = Features(pixels, np.zeros((3, 128), np.float32), np.ones(3, np.float32))
     T = true_pose(index) if state.has_pose else None
     closures = (LoopClosure(9, 0, 40),) if index == 9 else ()
     return Tracking(
         index, 100.0 + index / 10, state, 20 + index, "features",
-        None if T is None else Anchor(0, T), T, index % 3 == 0, closures, features,
+        None if T is None else Anchor(0, T), T, index % 3 == 0, closures, pixels,
     )  # fmt: skip
 
 

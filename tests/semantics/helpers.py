@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from datasets.poses import pose
@@ -35,6 +37,11 @@ def tiny_model() -> PlaceModel:
     return PlaceModel(LabelSpace.of(names), bag, classifier, FeatureSettings())
 
 
+def seen(found: Features) -> SimpleNamespace:
+    """What of a view the high layer looks at."""
+    return SimpleNamespace(features=found)
+
+
 def tracking(
     index: int, x: float = 0.0, y: float = 0.0, word: int = 0, keyframe: int = 0, lost: bool = False
 ) -> Tracking:
@@ -43,7 +50,7 @@ def tracking(
     state = TrackingState.LOST if lost else TrackingState.OK
     return Tracking(
         index, index / 30, state, 50, "features", anchor, None, False, (),
-        features(descriptors_of(word)),
+        np.empty((0, 2)), seen(features(descriptors_of(word))),
     )  # fmt: skip
 
 

@@ -5,7 +5,7 @@ import pytest
 from pydantic import ValidationError
 
 from semantics.labeller import LabellerSettings, PlaceLabeller
-from tests.semantics.helpers import descriptors_of, features, tiny_model, tracking
+from tests.semantics.helpers import descriptors_of, features, seen, tiny_model, tracking
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def test_short_sequences_and_windows_of_one(model):
 def test_featureless_frames_abstain(model):
     labeller = PlaceLabeller(model, LabellerSettings(window=3))
     blank = tracking(1)
-    object.__setattr__(blank, "features", features(descriptors_of(0, 0)))
+    object.__setattr__(blank, "view", seen(features(descriptors_of(0, 0))))
     labels = [
         f
         for item in (tracking(0, word=2), blank, tracking(2, word=2))
@@ -68,7 +68,7 @@ def test_featureless_frames_abstain(model):
 def test_only_featureless_frames_are_unknown(model):
     labeller = PlaceLabeller(model, LabellerSettings(window=3))
     blank = tracking(0)
-    object.__setattr__(blank, "features", features(descriptors_of(0, 0)))
+    object.__setattr__(blank, "view", seen(features(descriptors_of(0, 0))))
     (label,) = labeller.process(blank) + labeller.finish()
     assert (label.label, label.label_id, label.score) == ("unknown", 0, 0.0)
 
@@ -103,7 +103,7 @@ def test_is_cheap():
     model = PlaceModel(LabelSpace.of(names), bag, classifier, FeatureSettings())
     labeller = PlaceLabeller(model, LabellerSettings())
     item = tracking(0)
-    object.__setattr__(item, "features", features(rng.random((1000, 128), np.float32)))
+    object.__setattr__(item, "view", seen(features(rng.random((1000, 128), np.float32))))
     times = []
     for _ in range(30):
         start = time.perf_counter()
@@ -115,7 +115,7 @@ def test_is_cheap():
 def looked_at(index, word, is_looked_at=True, x=None):
     item = tracking(index, word=word)
     if not is_looked_at:
-        item = item.without_features()
+        item = item.without_view()
     T = np.eye(4)
     T[0, 3] = 0.1 * index if x is None else x
     object.__setattr__(item, "T_world_camera", T)

@@ -8,7 +8,7 @@ from slam.appearance import AppearanceIndex, AppearanceSettings
 from slam.errors import SlamError
 from slam.features import FeatureExtractor, Features, FeatureSettings, root
 from slam.matching import match, near, squared_distances
-from slam.view import depth_at, see, without_edges
+from slam.view import View, depth_at, without_edges
 
 
 def test_distances_agree_with_scipy(rng):
@@ -116,7 +116,7 @@ def test_view_has_points_where_there_is_depth(rng):
     depth[:, :100] = 0
     depth[:, 220:] = 9.0
     frame = Frame(0, 0.0, _chessboard(rng), depth, camera)
-    view = see(frame, FeatureExtractor(FeatureSettings()), max_depth_m=8.0)
+    view = View(frame, FeatureExtractor(FeatureSettings()), max_depth_m=8.0)
     inner = (view.features.pixels[:, 0] > 105) & (view.features.pixels[:, 0] < 215)
     assert np.array_equal(view.has_point & inner, inner)
     assert not view.has_point[view.features.pixels[:, 0] < 95].any()

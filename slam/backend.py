@@ -1,0 +1,116 @@
+"""The mapper at work in the background, and what it has found so far."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from slam.estimate import Estimate
+from slam.keyframe import Keyframe
+from slam.mapper import Mapper, MapUpdate
+from slam.pose_graph import Link
+from slam.tracking import LoopClosure
+from slam.view import View
+
+FloatArray = NDArray[np.float64]
+
+# Keyframes in the making while tracking goes on.
+IN_FLIGHT = 2
+
+
+@dataclass(frozen=True, slots=True)
+class _Pending:
+    """A keyframe in the making: where it is believed to be until it is done."""
+
+    keyframe: int
+    reference: int | None
+    T_reference_keyframe: FloatArray
+    update: Future[MapUpdate]
+
+
+class Backend:
+    """Makes keyframes in a thread, one after the other, and keeps a copy of the map to track by.
+
+    What tracking sees changes only when it asks: with the n-th keyframe handed in, the results up
+    to the (n - 2)-th are taken in, whether or not more are there. So the outcome does not depend
+    on which thread is faster.
+
+    Attributes
+    ----------
+    poses : dict of int to (4, 4) float64
+        T_world_keyframe as far as known now, also of keyframes in the making.
+    keyframes : dict of int to Keyframe
+        The finished ones.
+    links : tuple of Link
+        Between these.
+    placed : set of int
+        Keyframes that hang together with the first one, as far as known.
+    """
+
+    def __init__(self, mapper: Mapper) -> None:
+        self.mapper = mapper
+        self.poses: dict[int, FloatArray] = {}
+        self.keyframes: dict[int, Keyframe] = {}
+        self.links: tuple[Link, ...] = ()
+        self.placed: set[int] = set()
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="mapper")
+        self._pending: deque[_Pending] = deque()
+        self._closures: list[LoopClosure] = []
+        self._next = 0
+
+    def start(self, view: View, T_world_camera: FloatArray) -> int:
+        """Make the first keyframe of a map, or of a new sub-map; return its id."""
+        keyframe = self._next
+        return self._submit(
+            None, T_world_camera, lambda: self.mapper.start(keyframe, view, T_world_camera)
+        )
+
+    def insert(self, view: View, estimate: Estimate) -> int:
+        """Make a keyframe of a view whose pose is known; return its id."""
+        keyframe = self._next
+        return self._submit(
+            estimate.reference, poses.inverse(estimate.T_camera_reference),
+            lambda: self.mapper.insert(keyframe, view, estimate),
+        )  # fmt: skip
+
+    def finish(self) -> None:
+        """Wait for all keyframes in the making and take their results in."""
+        while self._pending:
+            self._take()
+
+    def closures(self) -> tuple[LoopClosure, ...]:
+        """Return the loops that became known since last asked."""
+        found, self._closures = tuple(self._closures), []
+        return found
+
+    def _submit(self, reference: int | None, T: FloatArray, job: Callable[[], MapUpdate]) -> int:
+        keyframe, self._next = self._next, self._next + 1
+        while len(self._pending) >= IN_FLIGHT:
+            self._take()
+        self._pending.append(_Pending(keyframe, reference, T, self._pool.submit(job)))
+        self._chain()
+        return keyframe
+
+    def _take(self) -> None:
+        update = self._pending.popleft().update.result()
+        self.poses, self.links = dict(update.poses), update.links
+        self.placed = set(update.placed)
+        self.keyframes[update.keyframe.id] = update.keyframe
+        self._closures.extend(update.closures)
+        self._chain()
+
+    def _chain(self) -> None:
+        """Put the keyframes in the making where they are believed to be."""
+        for pending in self._pending:
+            T = pending.T_reference_keyframe
+            if pending.reference is not None:
+                T = self.poses[pending.reference] @ T
+            self.poses[pending.keyframe] = T
+            if pending.reference in self.placed or not self.keyframes:
+                self.placed.add(pending.keyframe)

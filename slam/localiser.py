@@ -1,0 +1,152 @@
+"""Where the camera is now, by the cheapest means that will do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from datasets import poses
+from slam.estimate import Estimate
+from slam.flow import FlowTracker, Template
+from slam.local_map import LocalMap
+from slam.textureless import DepthOdometry
+from slam.tracker import Located, Tracker
+from slam.tracking import Anchor
+from slam.view import View
+
+FloatArray = NDArray[np.float64]
+
+
+class Localiser:
+    """Follows the camera from frame to frame: by optical flow, by features, by depth alone.
+
+    Parameters
+    ----------
+    flow, tracker, depth : FlowTracker, Tracker, DepthOdometry
+        The three means, in the order in which they are tried.
+    T_world_keyframe : callable
+        Returns the poses known now, by keyframe id.
+    around : callable
+        Returns the points around a keyframe; may have to wait for keyframes in the making.
+    """
+
+    def __init__(
+        self,
+        flow: FlowTracker,
+        tracker: Tracker,
+        depth: DepthOdometry,
+        T_world_keyframe: Callable[[], Mapping[int, FloatArray]],
+        around: Callable[[int], LocalMap],
+    ) -> None:
+        self.flow, self.tracker, self.depth = flow, tracker, depth
+        self._T_world_keyframe, self._around = T_world_keyframe, around
+        self._template: Template | None = None
+        self._template_covariance: FloatArray = np.zeros((6, 6))
+        self._last: Anchor | None = None
+        self._last_view: View | None = None
+        self._covariance: FloatArray = np.zeros((6, 6))
+        self._velocity: FloatArray = np.eye(4)
+
+    def locate(self, view: View) -> Estimate | None:
+        """Return where a view is, going on from the last one; None if no means finds it."""
+        return self._by_flow(view) or self._by_features(view) or self._by_depth(view)
+
+    def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
+        """Take a view's pose over as the present one.
+
+        Parameters
+        ----------
+        view, anchor : View, Anchor
+            Now, and where that is.
+        estimate : Estimate or None
+            What it was found by; None if it is where it is by definition: a keyframe.
+        """
+        if self._last is not None:
+            T_camera_world = poses.inverse(self._pose_of(anchor))
+            self._velocity = T_camera_world @ self._pose_of(self._last)
+        self._covariance = np.zeros((6, 6)) if estimate is None else estimate.covariance
+        if estimate is None or estimate.method != "depth":
+            self.depth.forget()
+        self._last, self._last_view = anchor, view
+
+    def follow(self, view: View, anchor: Anchor) -> Template:
+        """Look for this view's corners from now on."""
+        self._template = self.flow.template(view, anchor)
+        self._template_covariance = self._covariance
+        return self._template
+
+    @property
+    def T_world_camera(self) -> FloatArray:
+        """Where the camera (4, 4) was last, as estimated now."""
+        assert self._last is not None
+        return self._pose_of(self._last)
+
+    def stand_still(self) -> None:
+        """Predict no motion: what it was is not known any more."""
+        self._velocity = np.eye(4)
+
+    def _pose_of(self, anchor: Anchor) -> FloatArray:
+        return np.asarray(self._T_world_keyframe()[anchor.keyframe] @ anchor.T_keyframe_camera)
+
+    def _prediction(self, target: Anchor) -> FloatArray:
+        """Return T_camera_target if the camera goes on as it did."""
+        assert self._last is not None
+        T = self._velocity @ poses.inverse(self._pose_of(self._last)) @ self._pose_of(target)
+        # A prediction feeds the next one: left alone, rounding errors double with each frame.
+        return poses.orthonormal(T)
+
+    def _by_flow(self, view: View) -> Estimate | None:
+        """Follow the template's corners."""
+        template = self._template
+        if template is None or not self.flow.settings.enabled:
+            return None
+        followed = self.flow.track(view, template, self._prediction(template.anchor))
+        if followed is None:
+            return None
+        motion, seen = followed
+        T = motion.T_camera_reference
+        carried = poses.adjoint(T) @ self._template_covariance @ poses.adjoint(T).T
+        covariance: FloatArray = np.linalg.inv(motion.information) + carried
+        return Estimate(
+            template.anchor.keyframe, T @ poses.inverse(template.anchor.T_keyframe_camera),
+            np.asarray(np.linalg.inv(covariance)), motion.count,
+            motion.count / len(template.pixels), "flow", seen,
+        )  # fmt: skip
+
+    def _by_features(self, view: View) -> Estimate | None:
+        """Match features with the points of the keyframes around."""
+        assert self._last is not None
+        reference = self._last.keyframe
+        located = self.tracker.track(
+            view, self._around(reference), self._prediction(Anchor(reference, np.eye(4)))
+        )
+        return None if located is None else estimate_of(located, view)
+
+    def _by_depth(self, view: View) -> Estimate | None:
+        """Carry on from the last frame by aligning depth images."""
+        if not self.depth.settings.enabled or self._last is None or self._last_view is None:
+            return None
+        if not self.depth.is_tracking:
+            self.depth.remember(self._last_view.frame)
+        step = self.depth.register(view.frame, self._velocity)
+        if step is None:
+            return None
+        T = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
+        # The step's error comes on top of that of the pose it starts from.
+        carried = poses.adjoint(step.T_camera_last)
+        covariance = carried @ self._covariance @ carried.T + np.linalg.inv(step.information)
+        return Estimate(
+            self._last.keyframe, T, np.linalg.inv(covariance), 0, 0.0, "depth", np.empty((0, 2))
+        )
+
+
+def estimate_of(located: Located, view: View) -> Estimate:
+    """Return a pose by features in the form that all poses share."""
+    could = max(1, int(view.has_point.sum()))
+    return Estimate(
+        located.local_map.reference, located.motion.T_camera_reference,
+        located.motion.information, located.inliers, located.inliers / could, "features",
+        view.features.pixels[located.matches[:, 1]],
+    )  # fmt: skip
