@@ -183,7 +183,7 @@ class Pipeline:
         self.slam.finish()
         self._label_but(0)
         self._take(self.labeller.finish())
-        self.recorder.add_unread(self.sequence.stamps_s[len(self._labelled) :])
+        self._place()
         keyframes = self.slam.keyframes
         with self.clock.stage("map"):
             points = self.slam.build_map()
@@ -216,11 +216,38 @@ class Pipeline:
         self.recorder.write_metrics(metrics)
         return metrics
 
+    def _place(self) -> None:
+        """Say at last of each frame whether its place in the world became known.
+
+        Frames of a sub-map that was joined count as relocalised where they were lost; those of a
+        sub-map that never was are lost, and keep the way they went in a file of its own.
+        """
+        apart: dict[int, list[tuple[float, NDArray[np.float64]]]] = {}
+        for i, label in enumerate(self._labelled):
+            tracking, anchor = label.tracking, label.tracking.anchor
+            if anchor is None:
+                continue
+            if self.slam.is_placed(anchor):
+                state = tracking.state
+                if state is TrackingState.LOST:
+                    state = TrackingState.RELOCALISED
+                tracking = replace(tracking, state=state)
+            else:
+                submap = self.slam.mapper.graph.component_of(anchor.keyframe)
+                way = (tracking.stamp_s, self.slam.pose_of(anchor))
+                apart.setdefault(submap, []).append(way)
+                tracking = replace(tracking, state=TrackingState.LOST, inliers=0, anchor=None)
+            self._labelled[i] = replace(label, tracking=tracking)
+        self.topology.keep(self.slam.placed_poses)
+        self.recorder.rewrite_frames(self._labelled, self.sequence.stamps_s[len(self._labelled) :])
+        for number, ways in enumerate(apart.values(), 1):
+            self.recorder.write_submap(number, _trajectory_of(ways))
+
     def _survey(self) -> Survey | None:
         """Find the floor and the free space of the map as it is now."""
         settings = self.settings.slam
         found = survey(
-            self.slam.keyframes, self.slam.mapper.graph, settings.ground, settings.space,
+            self.slam.keyframes, self.slam.placed_poses, settings.ground, settings.space,
             settings.noise,
         )  # fmt: skip
         for warning in () if found is None else found.warnings:
@@ -242,13 +269,13 @@ class Pipeline:
         return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
 
     def _trajectory(self) -> Trajectory:
-        tracked = [
-            (label.tracking.stamp_s, self.slam.pose_of(anchor))
-            for label in self._labelled
-            if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
-        ]
-        stamps = np.array([stamp for stamp, _ in tracked])
-        return Trajectory(stamps, np.array([T for _, T in tracked]).reshape(-1, 4, 4))
+        return _trajectory_of(
+            [
+                (label.tracking.stamp_s, self.slam.pose_of(anchor))
+                for label in self._labelled
+                if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
+            ]
+        )
 
     def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
         keyframe_poses = self.slam.keyframe_poses
@@ -296,6 +323,11 @@ class Pipeline:
     def _state(self, tracking: Tracking) -> str:
         place = self._labelled[-1].label if self._labelled else "unknown"
         return f"{tracking.state.value}, {place}, {len(self.slam.keyframes)} keyframes"
+
+
+def _trajectory_of(way: list[tuple[float, NDArray[np.float64]]]) -> Trajectory:
+    stamps = np.array([stamp for stamp, _ in way])
+    return Trajectory(stamps, np.array([T for _, T in way]).reshape(-1, 4, 4))
 
 
 def _events(tracking: Tracking) -> list[str]:

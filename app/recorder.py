@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -39,25 +40,28 @@ class Recorder:
         self._thumbnails = ThumbnailWriter(folder.thumbnails)
 
     def add_frame(self, label: FrameLabel) -> None:
-        """Write a frame's row."""
-        tracking = label.tracking
-        self._rows.writerow((
-            f"{tracking.stamp_s:.6f}", tracking.state.value, tracking.inliers,
-            _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
-        ))  # fmt: skip
+        """Write a frame's row, as known so far."""
+        self._rows.writerow(_row(label))
         self._file.flush()
 
     def add_thumbnail(self, frame: Frame) -> None:
         """Keep a small picture of a keyframe."""
         self._thumbnails.add(frame.index, frame.colour)
 
-    def add_unread(self, stamps_s: NDArray[np.float64]) -> None:
-        """Write rows for frames that the run did not get to."""
-        for stamp in stamps_s:
-            self._rows.writerow(
-                (f"{stamp:.6f}", TrackingState.SKIPPED.value, 0, "", "unknown", "0.0000", UNREAD)
-            )
-        self._file.flush()
+    def rewrite_frames(self, labels: Sequence[FrameLabel], unread_s: NDArray[np.float64]) -> None:
+        """Write all rows again as known at the end, with those that the run did not get to."""
+        self._file.close()
+        text = io.StringIO()
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(FRAME_COLUMNS)
+        rows.writerows(_row(label) for label in labels)
+        skipped = TrackingState.SKIPPED.value
+        rows.writerows((f"{t:.6f}", skipped, 0, "", "unknown", "0.0000", UNREAD) for t in unread_s)
+        write_text(self.folder.frames, text.getvalue())
+
+    def write_submap(self, number: int, trajectory: Trajectory) -> None:
+        """Write the way through a sub-map that never met the map, in a frame of its own."""
+        write_tum(self.folder.submap(number), trajectory)
 
     def write_trajectory(self, trajectory: Trajectory) -> None:
         """Write the poses of all tracked frames so far, as estimated now."""
@@ -101,6 +105,14 @@ class Recorder:
         """Close the open files."""
         self._file.close()
         self._thumbnails.close()
+
+
+def _row(label: FrameLabel) -> tuple[str | int, ...]:
+    tracking = label.tracking
+    return (
+        f"{tracking.stamp_s:.6f}", tracking.state.value, tracking.inliers,
+        _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
+    )  # fmt: skip
 
 
 def _keyframe_of(tracking: Tracking) -> int | str:

@@ -33,6 +33,10 @@ class RunFolder:
         """A pose for each tracked frame."""
         return self.root / "trajectory.tum"
 
+    def submap(self, number: int) -> Path:
+        """Return where the poses of a sub-map lie that never met the map, in a frame of its own."""
+        return self.root / f"submap_{number}.tum"
+
     @property
     def frames(self) -> Path:
         """A row for every input frame."""

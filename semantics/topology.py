@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -141,6 +141,10 @@ class TopologicalMap:
         )  # fmt: skip
         positions = np.array([node.position_world for node in nodes]).reshape(-1, 3)
         return SemanticGraph(self.labels, nodes, self._edges(positions))
+
+    def keep(self, keyframes: Container[int]) -> None:
+        """Forget the nodes that hang on other keyframes: those have no place in the world."""
+        self._nodes = [node for node in self._nodes if node.anchor.keyframe in keyframes]
 
     def _drop(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> None:
         tracking = frame_label.tracking

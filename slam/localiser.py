@@ -130,7 +130,11 @@ class Localiser:
             return None
         if not self.depth.is_tracking:
             self.depth.remember(self._last_view.frame)
-        step = self.depth.register(view.frame, self._velocity)
+        step = self.depth.register(
+            view.frame,
+            self._velocity,
+            is_textured=int(view.has_point.sum()) >= self.depth.settings.texture,
+        )
         if step is None:
             return None
         T = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)

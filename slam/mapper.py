@@ -69,7 +69,7 @@ class MapUpdate:
     links : tuple of Link
         All links that hold.
     placed : frozenset of int
-        Keyframes that hang together with the first.
+        Keyframes of the sub-map that is the world.
     """
 
     keyframe: Keyframe
@@ -149,7 +149,7 @@ class Mapper:
             self._forget(link)
         return MapUpdate(
             keyframe, self.graph.poses, closures, tuple(self.graph.links),
-            frozenset(self.graph.members_of(self.graph.component_of(0))),
+            frozenset(self.graph.members_of(self.graph.world)),
         )  # fmt: skip
 
     def around(self, reference: int) -> LocalMap:

@@ -83,6 +83,19 @@ class PoseGraph:
         self._row(keyframe)
         return self._connections.component_of(keyframe)
 
+    @property
+    def world(self) -> int:
+        """The oldest keyframe of the sub-map whose frame is the world's.
+
+        It is the oldest sub-map, but for beginnings with less than a tenth of all keyframes.
+        """
+        large = (
+            root
+            for root in sorted(self._connections.roots)
+            if len(self._connections.members_of(root)) >= len(self) / 10
+        )
+        return next(large, self._ids[0])
+
     def members_of(self, component: int) -> list[int]:
         """Return the keyframes of the sub-map with this oldest keyframe."""
         return self._connections.members_of(component)

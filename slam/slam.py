@@ -158,11 +158,13 @@ class Slam:
         return self._backend.links
 
     def is_placed(self, anchor: Anchor) -> bool:
-        """Whether it is known where in the world a pose is: not so in a sub-map joined to nothing.
-
-        The world is the sub-map of the first keyframe.
-        """
+        """Whether it is known where in the world a pose is: not so in a sub-map of its own."""
         return anchor.keyframe in self._backend.placed
+
+    @property
+    def placed_poses(self) -> dict[int, FloatArray]:
+        """T_world_keyframe (4, 4) of the keyframes that have a place in the world."""
+        return {k: T for k, T in self._backend.poses.items() if k in self._backend.placed}
 
     def build_map(self) -> PointMap:
         """Fuse all keyframes' points that have a place in the world, at their present poses."""

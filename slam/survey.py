@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +13,9 @@ from slam.ground import Ground, GroundSettings, find_ground
 from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
 from slam.occupancy import OccupancyGrid, occupancy
-from slam.pose_graph import PoseGraph
 from slam.space import Space, SpaceSettings, carve
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +31,7 @@ class Survey:
     grid : OccupancyGrid
         The same, flattened for robots.
     keyframes : tuple of int
-        The keyframes it is made of: those of the largest sub-map.
+        The keyframes it is made of: those with a place in the world.
     path_map : (N, 3) float64
         Their camera centres in the map frame, metres.
     warnings : tuple of str
@@ -47,31 +48,32 @@ class Survey:
 
 def survey(
     keyframes: dict[int, Keyframe],
-    graph: PoseGraph,
+    T_world_keyframe: Mapping[int, FloatArray],
     ground_settings: GroundSettings,
     space_settings: SpaceSettings,
     noise: SensorNoise,
 ) -> Survey | None:
     """Look at a map as it is now; None if there is nothing in it.
 
-    Sub-maps that no link joins lie anywhere to each other: only the largest is surveyed.
+    Parameters
+    ----------
+    T_world_keyframe : mapping of int to (4, 4) float64
+        Of the keyframes that have a place in the world; the others are left out.
     """
-    parts = Counter(graph.component_of(key) for key in keyframes if key in graph)
-    if not parts:
-        return None
-    largest = max(parts, key=lambda part: (parts[part], -part))
-    T = {key: pose for key, pose in graph.poses.items() if graph.component_of(key) == largest}
+    T = T_world_keyframe
     kept = [keyframes[key] for key in sorted(T) if key in keyframes]
+    if not kept:
+        return None
     ground = find_ground(kept, T, ground_settings)
     space = carve(kept, T, ground, space_settings, noise)
     centres = np.array([T[k.id][:3, 3] for k in kept])
     path = poses.transform(ground.T_map_world, centres)
     grid = occupancy(space, ground.T_map_world, space_settings, path)
-    left_out = sum(parts.values()) - parts[largest]
+    left_out = len(keyframes) - len(kept)
     warnings = ground.warnings
     if left_out:
         warnings += (
-            f"{left_out} of {sum(parts.values())} keyframes lie in sub-maps that never met the "
-            "largest: the floor plan is without them",
+            f"{left_out} of {len(keyframes)} keyframes lie in sub-maps that never met the "
+            "map: it is without them",
         )
     return Survey(ground, space, grid, tuple(k.id for k in kept), path, warnings)

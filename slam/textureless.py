@@ -29,6 +29,12 @@ class TexturelessSettings(Settings):
     min_overlap: float = Field(
         0.5, gt=0, le=1, description="share of points that must fall onto the surface before"
     )
+    texture: int = Field(
+        100, ge=1, description="features with depth that make a view textured: yet none were known"
+    )
+    min_overlap_textured: float = Field(
+        0.7, gt=0, le=1, description="the overlap that such a view needs: it may be elsewhere"
+    )
     fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the surface")
     max_step_m: float = Field(0.5, gt=0, le=5, description="a longer step is not believed")
     sigma_rotation_rad: float = Field(
@@ -83,7 +89,9 @@ class DepthOdometry:
         self._kiss, self._last = None, surface_of(frame, self.settings.stride)
         self._last_planes = self._planes_of(self._last.cloud)
 
-    def register(self, frame: Frame, T_camera_last: FloatArray) -> Step | None:
+    def register(
+        self, frame: Frame, T_camera_last: FloatArray, is_textured: bool = False
+    ) -> Step | None:
         """Return the step from the last frame to this one, which becomes the last; or None.
 
         Parameters
@@ -92,6 +100,8 @@ class DepthOdometry:
             The new frame.
         T_camera_last : (4, 4) float64
             A guess.
+        is_textured : bool
+            Whether features were seen, but not recognised: then depth must fit better.
         """
         surface = surface_of(frame, self.settings.stride)
         cloud = surface.cloud
@@ -108,7 +118,8 @@ class DepthOdometry:
         overlap = float((gaps[best] < self.settings.fit_m).sum()) / len(cloud)
         step = steps[best]
         far = np.linalg.norm(step.T_camera_last[:3, 3]) > self.settings.max_step_m
-        if far or overlap < self.settings.min_overlap:
+        needed = self.settings.min_overlap_textured if is_textured else self.settings.min_overlap
+        if far or overlap < needed:
             self.forget()
             return None
         if best == 0:
