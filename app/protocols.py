@@ -24,6 +24,8 @@ from app.protocol_data import (
     route_positions,
 )
 from app.protocol_report import ProtocolReport
+from app.protocol_route import FINISHED, FinishedRun, finished_run
+from datasets.errors import RoomgraphError
 from semantics import trials
 from semantics.model import PlaceModel
 from semantics.route import route_trials
@@ -153,6 +155,7 @@ def _route(m: Material) -> ProtocolReport:
         raise AppError("one building only", expected="folders to learn from, then the route")
     routes = [walk for walk in m.walks if walk.light == "day"] or m.walks[-1:]
     found: list[Trial] = []
+    runs: list[FinishedRun] = []
     for done, walk in enumerate(routes, 1):
         images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
         model = _model_without(m, walk.building)
@@ -160,14 +163,33 @@ def _route(m: Material) -> ProtocolReport:
             model, m.describer.predictions(model, images),
             [image.example.label for image in images], route_positions(images),
         )  # fmt: skip
-    notes = (
+        try:
+            runs.append(finished_run(model, Path(walk.examples[0].session), m.seed, m.terminal))
+        except RoomgraphError as error:
+            m.terminal.warn(f"not mapped: {error}")
+    found += [run.trial for run in runs]
+    notes = [
         "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
         "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
         "Filter: a hidden Markov model with the delay of the vote. Smoothed: beliefs propagated "
         "over the finished graph.",
-        *m.notes,
+    ]
+    figures = {}
+    if runs:
+        figures = {
+            "rooms": sum(run.rooms for run in runs),
+            "rooms_told_apart": sum(run.told_apart for run in runs),
+        }
+        notes.append(
+            "Finished run: the graph that `roomgraph run` writes of the route, mapped by the low "
+            "layer; only keyframes are looked at, and the nodes of a room share the label that "
+            f"its frames voted for. Rooms told apart: {figures['rooms_told_apart']} of "
+            f"{figures['rooms']}."
+        )
+    headline = (FINISHED,) if runs else ("nodes, vote",)
+    return ProtocolReport(
+        "", "", m.data, tuple(found), (*notes, *m.notes), headline, figures=figures
     )
-    return ProtocolReport("", "", m.data, tuple(found), notes, ("nodes, vote",))
 
 
 def _model_without(m: Material, building: str) -> PlaceModel:

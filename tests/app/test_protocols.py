@@ -63,10 +63,14 @@ def test_route_along_a_rendered_walk(rendered_walk, photos, tmp_path, monkeypatc
         "--data", rendered_walk, "-o", tmp_path, "--quiet",
     )  # fmt: skip
     assert code == 0
-    rows = json.loads((tmp_path / "route.json").read_text())["rows"]
+    content = json.loads((tmp_path / "route.json").read_text())
+    rows = content["rows"]
     assert rows[0]["name"] == "frames alone"
     assert rows[0]["images"] == 60
     assert 2 <= rows[3]["images"] < 20
+    assert rows[-1]["name"] == "nodes, finished run"
+    assert 2 <= rows[-1]["images"] < 20
+    assert content["rooms"] >= content["rooms_told_apart"] >= 0
 
 
 def test_vocabulary(photos, tmp_path, monkeypatch):

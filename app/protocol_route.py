@@ -1,0 +1,56 @@
+"""What a whole run along a route makes of it: both layers, rooms and loops included."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from app.config import AppSettings
+from app.console import Terminal
+from app.session import Showing, map_sequence
+from datasets.errors import RoomgraphError
+from datasets.open import open_sequence
+from semantics.graph_io import read_graph_json
+from semantics.model import PlaceModel
+from semantics.trials import Trial
+
+FINISHED = "nodes, finished run"
+
+
+@dataclass(frozen=True, slots=True)
+class FinishedRun:
+    """The labels of a finished run's nodes, its true rooms, and how many were told apart."""
+
+    trial: Trial
+    rooms: int
+    told_apart: int
+
+
+def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -> FinishedRun:
+    """Map and label a sequence as ``roomgraph run`` does, and compare its graph with the truth.
+
+    Raises
+    ------
+    RoomgraphError
+        The sequence cannot be mapped (no depth), or does not say which rooms it shows.
+    """
+    sequence = open_sequence(root)
+    places = sequence.places
+    if places is None:
+        raise RoomgraphError("the sequence does not say which rooms it shows", where=root)
+    settings = AppSettings(seed=seed)
+    with TemporaryDirectory() as scratch:
+        folder, metrics = map_sequence(
+            sequence, settings, model, Path(scratch) / "run", False,
+            Showing(live=False, save=False, report=False), terminal,
+        )  # fmt: skip
+        graph = read_graph_json(folder.graph_json)
+    pairs = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
+    known = [(truth[0], label) for truth, label in pairs if truth is not None]
+    trial = Trial(
+        FINISHED, np.array([truth for truth, _ in known]), np.array([label for _, label in known])
+    )
+    return FinishedRun(trial, len(metrics["rooms"]), len(metrics["rooms_recovered"]))
