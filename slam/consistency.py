@@ -35,6 +35,9 @@ class BeliefSettings(Settings):
     confirmations: int = Field(
         2, ge=0, le=20, description="other keyframes that must ask for the same correction"
     )
+    join_way_m: float = Field(
+        1.0, ge=0, le=100, description="way over which loops agree before they join two sub-maps"
+    )
     patience: int = Field(30, ge=1, description="keyframes for which a loop waits to be confirmed")
 
 
@@ -45,7 +48,8 @@ class LoopBelief:
     correction that they ask for is larger than the way in between can have caused. A correction
     within the likely drift along the shortest way of links passes at once; a larger one waits
     for loops of other keyframes that form a consistent cycle with it; one beyond the possible
-    drift is dropped. A loop between two sub-maps always waits.
+    drift is dropped. A loop between two sub-maps always waits, and
+    needs agreement over some way.
     """
 
     def __init__(self, settings: BeliefSettings) -> None:
@@ -55,7 +59,8 @@ class LoopBelief:
     def admit(self, measured: Measured, graph: PoseGraph) -> list[Measured]:
         """Return the loops to take: this one, with the held ones it confirms, or none."""
         link = measured.link
-        if graph.component_of(link.first) == graph.component_of(link.second):
+        joins = graph.component_of(link.first) != graph.component_of(link.second)
+        if not joins:
             if self._can_be_drift(link, graph, 1.0):
                 return [measured]
             if not self._can_be_drift(link, graph, self.settings.doubt):
@@ -67,8 +72,21 @@ class LoopBelief:
         if len({m.link.second for m in agreeing} - {link.second}) < self.settings.confirmations:
             return []
         taken = [*agreeing, measured]
+        if joins and not self._is_wide(taken, graph):
+            return []
         self.held = [m for m in self.held if not any(m is t for t in taken)]
         return taken
+
+    def _is_wide(self, agreeing: list[Measured], graph: PoseGraph) -> bool:
+        """Whether loops rest on more than one thing that looks the same.
+
+        Successive keyframes that see the same poster agree with each other, but are no witnesses of
+        one another: the camera must have moved on, and have met several keyframes.
+        """
+        centres = np.array([graph[m.link.second][:3, 3] for m in agreeing])
+        way = np.linalg.norm(centres[:, None] - centres, axis=-1).max()
+        met = {m.link.first for m in agreeing}
+        return len(met) > 1 and bool(way >= self.settings.join_way_m)
 
     def _can_be_drift(self, link: Link, graph: PoseGraph, times: float) -> bool:
         """Whether the shortest way of links is long enough to have drifted so far."""
