@@ -27,7 +27,7 @@ def node_words(node: GraphNode) -> str:
     if not node.evidence.voted:
         return node.place
     count = len(node.evidence.voters)
-    frames = f"{count} frame{'s' if count > 1 else ''}"
+    frames = f"{count} frame{'s' if count != 1 else ''}"
     voted = _spaced(node.evidence.voted)
     return f"{node.place}: {chances(node.evidence)}\n{frames} voted for {voted}"
 

@@ -79,7 +79,8 @@ def write_vocabulary(directory: Path, found: list[Quantised], data: list[Path]) 
         "rows": rows,
         "notes": [
             "Accuracy: share of the descriptors' variance that their words account for, at "
-            f"{CHOSEN} Neural Gas vectors in the headline. Times: CPU seconds of one thread, median.",
+            f"{CHOSEN} Neural Gas vectors in the headline. Times: CPU seconds of "
+            "one thread, median.",
         ],
     }
     write_text(directory / f"{NAME}.json", json.dumps(content, indent=1) + "\n")
