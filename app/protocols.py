@@ -177,8 +177,8 @@ def _route(m: Material) -> ProtocolReport:
     notes = [
         "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
         "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
-        "Filter: a hidden Markov model with the delay of the vote, as by default. Smoothed: beliefs propagated "
-        "over the finished graph.",
+        "Filter: a hidden Markov model with the delay of the vote, as by default. Smoothed: "
+        "beliefs propagated over the finished graph.",
     ]
     figures = {}
     if runs:
