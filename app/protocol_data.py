@@ -160,7 +160,17 @@ class Collection:
             np.array([walk.light for walk in self.walks]),
             self.C,
             *self._along(),
+            self._to_doorways(),
         )
+
+    def _to_doorways(self) -> NDArray[np.float64]:
+        """Return the way (N,) from each image to the nearest change of room on its walk, metres."""
+        walks = {id(walk): walk for walk in self.walks}
+        ways = [_to_doorways(walk) for walk in walks.values()]
+        if not all(ways):
+            return np.empty(0)
+        found = {key: way for part in ways for key, way in part.items()}
+        return np.array([found[_key(image.example)] for image in self.images])
 
     def _along(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Return the number of each image along its walk, and its stretch of it.
@@ -194,6 +204,27 @@ def route_positions(images: Sequence[Described]) -> NDArray[np.float64]:
         return np.column_stack([0.1 * np.arange(len(stamps)), np.zeros((len(stamps), 2))])
     nearest = np.abs(truth.stamps_s[None] - stamps[:, None]).argmin(axis=1)
     return np.asarray(truth.positions[nearest])
+
+
+def _to_doorways(walk: Walk) -> dict[tuple[str, float], float]:
+    """Return the way from each image of a walk to a change of room; empty if it has no poses."""
+    root = Path(walk.examples[0].session)
+    truth = open_sequence(root).ground_truth if root.is_dir() else None
+    if truth is None:
+        return {}
+    stamps = np.array([example.stamp_s for example in walk.examples])
+    positions = truth.positions[np.abs(truth.stamps_s[None] - stamps[:, None]).argmin(axis=1)]
+    steps = np.linalg.norm(np.diff(positions, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    groups = np.array([example.group for example in walk.examples])
+    changes = np.flatnonzero(groups[1:] != groups[:-1])
+    borders = (along[changes] + along[changes + 1]) / 2
+    ways = np.abs(along[:, None] - borders).min(axis=1, initial=np.inf)
+    return {_key(e): float(way) for e, way in zip(walk.examples, ways, strict=True)}
+
+
+def _key(example: Example) -> tuple[str, float]:
+    return example.session, example.stamp_s
 
 
 def turned(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

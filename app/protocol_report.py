@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,6 +21,9 @@ from semantics.calibration import (
 )
 from semantics.evaluation import LabelAccuracy, compare_labels
 from semantics.trials import Judgement, Trial, per_class
+
+# Letters on a line beside a bar.
+_NAME_WIDTH = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +185,7 @@ def _draw(path: Path, report: ProtocolReport, content: dict[str, Any]) -> None:
 def _draw_rows(axis: Any, report: ProtocolReport, content: dict[str, Any]) -> None:
     rows = content["rows"][::-1]
     axis.barh(
-        [row["name"].replace(" (", "\n(").replace(" on ", "\non ") for row in rows],
+        [textwrap.fill(row["name"], _NAME_WIDTH) for row in rows],
         [100 * row["accuracy_mean"] for row in rows],
         xerr=[100 * row["accuracy_std"] for row in rows],
         color="#4e79a7", ecolor="0.3", capsize=3,

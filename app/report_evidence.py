@@ -11,6 +11,7 @@ from semantics.graph import GraphNode, SemanticGraph
 # Frames closer together than this are told as a range.
 _GAP = 10
 _RANGES = 6
+_LEAST = 0.005
 
 
 def place_reasons(graph: SemanticGraph) -> list[dict[str, str]]:
@@ -27,14 +28,15 @@ def node_words(node: GraphNode) -> str:
     if not node.evidence.voted:
         return node.place
     count = len(node.evidence.voters)
-    frames = f"{count} frame{'s' if count > 1 else ''}"
+    frames = f"{count} frame{'s' if count != 1 else ''}"
     voted = _spaced(node.evidence.voted)
     return f"{node.place}: {chances(node.evidence)}\n{frames} voted for {voted}"
 
 
 def chances(evidence: Evidence) -> str:
-    """Return the likeliest labels with their probability."""
-    return ", ".join(f"{_spaced(name)} {chance:.0%}" for name, chance in evidence.labels)
+    """Return the likeliest labels with their probability, if it is half a percent or more."""
+    known = [(name, chance) for name, chance in evidence.labels if chance >= _LEAST]
+    return ", ".join(f"{_spaced(name)} {chance:.0%}" for name, chance in known)
 
 
 def ranges(frames: Sequence[int]) -> str:

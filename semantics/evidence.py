@@ -23,7 +23,7 @@ class Evidence:
     Attributes
     ----------
     labels : tuple of (str, float)
-        The likeliest labels and their probability over the frames that voted.
+        The likeliest labels and their probability.
     voters : tuple of int
         Indices of the frames that voted for the label.
     words : tuple of (int, float)
@@ -40,7 +40,7 @@ class Evidence:
     @classmethod
     def of(cls, label: FrameLabel, labels: LabelSpace) -> Evidence:
         """Return the evidence for a frame's label; empty where nothing was looked at."""
-        if not label.voters:
+        if not len(label.probabilities):
             return cls()
         order = np.argsort(-label.probabilities, kind="stable")[:TOP]
         top = tuple((labels.names[i], float(label.probabilities[i])) for i in order)

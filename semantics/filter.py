@@ -7,12 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
 
 FloatArray = NDArray[np.float64]
 
 # Below this a look would rule a place out for good, whatever comes after.
 _LEAST = 1e-3
+# Looks from one spot count a little, so that a long stay says something in the end.
+_LEAST_WEIGHT = 0.1
 # Where nobody can say how far the camera went between two looks.
 _USUAL_STEP_M = 0.3
 
@@ -56,9 +57,10 @@ class PlaceFilter:
             What the look alone says.
         """
         way = _way(self._position, position)
-        self._belief = self._step(self._belief, way, self._evidence(probabilities, way))
+        (moves,), (seen,) = self._moves([way]), self._evidence(probabilities[None], [way])
+        self._belief = self._step(self._belief, moves, seen)
         self._position = position
-        return np.asarray(np.exp(self._belief))
+        return self._belief
 
     def smoothed(
         self, positions: Sequence[FloatArray | None], probabilities: FloatArray
@@ -68,37 +70,33 @@ class PlaceFilter:
         The forward-backward algorithm (Rabiner, 1989); the looks are not taken for good.
         """
         ways = [_way(a, b) for a, b in zip([self._position, *positions], positions, strict=False)]
-        evidence = [self._evidence(p, way) for p, way in zip(probabilities, ways, strict=True)]
-        forward, belief = [], self._belief
-        for way, seen in zip(ways, evidence, strict=True):
-            belief = self._step(belief, way, seen)
-            forward.append(belief)
-        backward = [np.zeros(len(self.transitions))]
-        for way, seen in zip(ways[:0:-1], evidence[:0:-1], strict=True):
-            move = np.log(self._moves(way))
-            message = logsumexp(move + (seen + backward[-1])[None, :], axis=1)
-            backward.append(message - logsumexp(message))
-        beliefs = np.array(forward) + np.array(backward[::-1])
-        return np.asarray(np.exp(beliefs - logsumexp(beliefs, axis=1, keepdims=True)))
+        moves, evidence = self._moves(ways), self._evidence(probabilities, ways)
+        beliefs, belief = np.empty(evidence.shape), self._belief
+        for i, seen in enumerate(evidence):
+            belief = beliefs[i] = self._step(belief, moves[i], seen)
+        backward = np.ones(len(self.transitions))
+        for i in range(len(evidence) - 1, 0, -1):
+            backward = moves[i] @ (evidence[i] * backward)
+            backward /= backward.sum()
+            beliefs[i - 1] *= backward
+        return np.asarray(beliefs / beliefs.sum(axis=1, keepdims=True))
 
-    def _step(self, belief: FloatArray | None, way: float, evidence: FloatArray) -> FloatArray:
-        """Return the log belief (K,) after walking and looking."""
-        if belief is None:
-            ahead = np.full(len(self.transitions), -np.log(len(self.transitions)))
-        else:
-            ahead = np.log(np.exp(belief) @ self._moves(way))
-        found = ahead + evidence
-        return np.asarray(found - logsumexp(found))
+    def _step(
+        self, belief: FloatArray | None, moves: FloatArray, evidence: FloatArray
+    ) -> FloatArray:
+        """Return the belief (K,) after walking and looking."""
+        found = evidence if belief is None else (belief @ moves) * evidence
+        return np.asarray(found / found.sum())
 
-    def _moves(self, way: float) -> FloatArray:
-        """Return the chance of each kind (column) after a way from each kind (row)."""
-        leave = -np.expm1(-way / self.change_m)
-        stay = np.eye(len(self.transitions))
-        return np.asarray((1 - leave) * stay + leave * self.transitions)
+    def _moves(self, ways: Sequence[float]) -> FloatArray:
+        """Return the chance (N, K, K) of each kind (column) after each way from each kind (row)."""
+        leave = -np.expm1(-np.asarray(ways) / self.change_m)[:, None, None]
+        return np.asarray((1 - leave) * np.eye(len(self.transitions)) + leave * self.transitions)
 
-    def _evidence(self, probabilities: FloatArray, way: float) -> FloatArray:
-        weight = min(1.0, max(way, 0.1 * self.independent_m) / self.independent_m)
-        return np.asarray(weight * np.log(np.maximum(probabilities, _LEAST)))
+    def _evidence(self, probabilities: FloatArray, ways: Sequence[float]) -> FloatArray:
+        """Return how well each look (N, K) fits each kind, given the way to it."""
+        weights = np.clip(np.asarray(ways) / self.independent_m, _LEAST_WEIGHT, 1.0)
+        return np.asarray(np.maximum(probabilities, _LEAST) ** weights[:, None])
 
 
 def count_transitions(walks: Iterable[Sequence[str]], names: Sequence[str]) -> FloatArray:

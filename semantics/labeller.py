@@ -21,7 +21,7 @@ class LabellerSettings(Settings):
     """How many frames vote."""
 
     method: Literal["vote", "filter"] = Field(
-        "vote", description="majority of the frames around (paper), or a hidden Markov model"
+        "filter", description="a hidden Markov model, or the majority of the frames around (paper)"
     )
     window: int = Field(
         31, ge=1, le=999, description="frames around each that vote on its label (paper: w); odd"
@@ -54,18 +54,18 @@ class FrameLabel:
     tracking : Tracking
         The low layer's account of the same frame (it holds the features: do not keep it).
     label, label_id : str, int
-        What the frames around voted for; ``unknown`` and 0 where none could tell.
+        What the frames around speak for; ``unknown`` and 0 where none could tell.
     score : float
-        Mean probability of the label over the frames that voted, 0 to 1.
+        Probability of the label, 0 to 1.
     raw_label : str
         What the frame alone looks like; ``unknown`` if it was not looked at.
     histogram : (Q,) float64
         Its appearance, of unit length, or that of the nearest frame looked at; empty without a
         model.
     probabilities : (n_labels,) float64
-        Mean over the frames that voted, by label id; empty where none did.
+        By label id, given the frames around, or their mean (vote); empty where none could tell.
     voters : tuple of int
-        The indices of the frames that voted for the label.
+        The indices of the frames around that look like the label on their own.
     words : tuple of (int, float)
         The visual words that spoke most for it in the nearest of those, see `PlacePrediction`.
     """
@@ -92,7 +92,11 @@ class _Look:
 
 
 class PlaceLabeller:
-    """Labels frames by majority vote of the frames around each (paper, section 3.3).
+    """Labels frames by the frames around each: a hidden Markov model, or the paper's vote.
+
+    The vote is that of section 3.3. The model knows how places follow each other and how far the
+    camera went between two looks, see `PlaceFilter`; it is right more often, and its score is a
+    probability that holds.
 
     Not every frame need be looked at: those that come without features (nor an image, for a model
     that describes images itself) take the label that the frames around them vote for. Of the

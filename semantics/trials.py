@@ -14,6 +14,8 @@ from semantics.folds import assign_folds
 
 Progress = Callable[[int, int], None]
 N_FOLDS = 10
+# The row of images that hardly show the next room: so far from a change of room.
+AWAY, AWAY_M = "fused, 1 m or more from doorways", 1.0
 # Rows of trials that learn from and test alternate stretches of a walk.
 STRETCHES, STRETCHES_SAME_LIGHT = "other stretches, other light", "other stretches, same light"
 
@@ -33,6 +35,8 @@ class Bench:
     order, stretches : (N,) int
         Number of the image along its walk, and of the stretch of the walk that it is from, where
         the same walk was taken in every light; else empty.
+    doorway_m : (N,) float64
+        Way from the image to the nearest change of room on its walk; empty where nobody knows.
     """
 
     vectors: NDArray[np.float64]
@@ -44,6 +48,7 @@ class Bench:
     C: float
     order: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     stretches: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    doorway_m: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
     @property
     def classes(self) -> list[str]:
@@ -55,12 +60,13 @@ class Bench:
 class Trial:
     """One training and one test: the true and the found labels of the images tested.
 
-    `row` is the line of the table that it counts for.
+    `row` is the line of the table that it counts for, `tested` the images' numbers in the bench.
     """
 
     row: str
     truth: NDArray[np.str_]
     found: NDArray[np.str_]
+    tested: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     @property
     def accuracy(self) -> float:
@@ -98,7 +104,8 @@ def per_class(trials: Sequence[Trial]) -> dict[str, float]:
 def run_trial(bench: Bench, row: str, train: NDArray[np.bool_], test: NDArray[np.bool_]) -> Trial:
     """Learn from some images of the bench and label others."""
     classifier = PlaceClassifier(bench.C, n_folds=1).fit(bench.vectors[train], bench.labels[train])
-    return Trial(row, bench.labels[test], classifier.predict(bench.vectors[test]).astype(str))
+    found = classifier.predict(bench.vectors[test]).astype(str)
+    return Trial(row, bench.labels[test], found, np.flatnonzero(test))
 
 
 def recognition(bench: Bench, seed: int) -> Iterator[Trial]:
@@ -109,7 +116,9 @@ def recognition(bench: Bench, seed: int) -> Iterator[Trial]:
         yield from _folds(bench, light, inside, bench.visits, seed)
     if len(lights) > 1:
         everything = np.ones(len(bench.labels), dtype=bool)
-        yield from _folds(bench, "fused", everything, bench.rooms, seed)
+        for trial in _folds(bench, "fused", everything, bench.rooms, seed):
+            yield trial
+            yield from _away(bench, trial)
     row = "frames of one visit on both sides (paper)"
     yield from _folds(bench, row, np.ones(len(bench.labels), dtype=bool), None, seed)
 
@@ -217,3 +226,11 @@ def _folds(
         train = inside & ~test
         if test.any() and len(np.unique(bench.labels[train])) > 1:
             yield run_trial(bench, row, train, test)
+
+
+def _away(bench: Bench, trial: Trial) -> Iterator[Trial]:
+    """Yield the part of a trial whose images were taken away from doorways, if it is known."""
+    if len(bench.doorway_m):
+        away = bench.doorway_m[trial.tested] >= AWAY_M
+        if away.any():
+            yield Trial(AWAY, trial.truth[away], trial.found[away], trial.tested[away])

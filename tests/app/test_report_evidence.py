@@ -16,7 +16,9 @@ def node(i, evidence, place="office1"):
     )
 
 
-FOR = Evidence((("office", 0.75), ("elevator_area", 0.25)), (3, 5, 30), ((7, 0.4),), "office")
+FOR = Evidence(
+    (("office", 0.75), ("elevator_area", 0.25), ("lab", 0.004)), (3, 5, 30), ((7, 0.4),), "office"
+)
 AGAINST = Evidence((("elevator_area", 0.75),), (40,), ((9, 0.4),), "elevator_area")
 
 

@@ -14,7 +14,7 @@ def model():
 
 
 def run(model, words, window):
-    labeller = PlaceLabeller(model, LabellerSettings(window=window))
+    labeller = PlaceLabeller(model, LabellerSettings(method="vote", window=window))
     released = [labeller.process(tracking(i, word=word)) for i, word in enumerate(words)]
     return released, labeller.finish()
 
@@ -123,7 +123,7 @@ def looked_at(index, word, is_looked_at=True, x=None):
 
 
 def labelled(model, items, **settings):
-    labeller = PlaceLabeller(model, LabellerSettings(**settings))
+    labeller = PlaceLabeller(model, LabellerSettings(**({"method": "vote"} | settings)))
     parts = [labeller.process(item) for item in items]
     return parts, [f for part in parts for f in part] + labeller.finish()
 

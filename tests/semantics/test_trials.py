@@ -61,6 +61,18 @@ def test_recognition_holds_visits_out_whole(bench, monkeypatch):
     assert np.mean([t.accuracy for t in found]) > 0.95
 
 
+def test_images_away_from_doorways_are_a_part_of_those_tested(bench):
+    ways = np.tile([0.2, 0.9, 1.0, 3.0, np.inf], 48)
+    found = list(trials.recognition(replace(bench, doorway_m=ways), 0))
+    fused = [t for t in found if t.row == "fused"]
+    away = [t for t in found if t.row == trials.AWAY]
+    assert len(away) == len(fused) == 10
+    for part, whole in zip(away, fused, strict=True):
+        kept = ways[whole.tested] >= 1
+        np.testing.assert_array_equal(part.found, whole.found[kept])
+        np.testing.assert_array_equal(part.truth, bench.labels[part.tested])
+
+
 def test_across_light_stays_in_a_building(bench, monkeypatch):
     found, shared = overlap(monkeypatch, bench.lights, lambda: trials.light(bench))
     assert not shared
