@@ -128,12 +128,13 @@ class Pipeline:
     def _label_but(self, count: int) -> None:
         """Label the frames that wait, but the last few."""
         while len(self._unlabelled) > count:
-            tracking = self._unlabelled.popleft()
+            tracking = self._unlabelled[0]
             with self.clock.stage("label"):
                 # A model that describes images itself is shown the keyframes' only.
                 view = tracking.view if tracking.is_keyframe else None
                 colour = None if view is None else view.frame.colour
                 labels = self.labeller.process(tracking, colour)
+            self._unlabelled.popleft()
             self._take(labels)
 
     def _take(self, labels: list[FrameLabel]) -> None:
@@ -184,7 +185,8 @@ class Pipeline:
         self._label_but(0)
         self._take(self.labeller.finish())
         self._place()
-        keyframes = self.slam.keyframes
+        placed = self.slam.placed_poses
+        keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
         with self.clock.stage("map"):
             points = self.slam.build_map()
         with self.clock.stage("survey"):
@@ -198,9 +200,9 @@ class Pipeline:
             self.recorder.write_graph(graph)
             if keyframes:
                 self.recorder.write_pose_graph(
-                    self.slam.mapper.graph, [k.stamp_s for k in keyframes.values()]
+                    self.slam.mapper.graph, {k.id: k.stamp_s for k in keyframes}
                 )
-            self.recorder.write_memory(remember(keyframes.values(), self.slam.keyframe_poses))
+            self.recorder.write_memory(remember(keyframes, placed))
             self.recorder.write_map(points, view.label_ids, self.labels)
             if surveyed is not None:
                 self.recorder.write_occupancy(surveyed.grid)
@@ -236,7 +238,10 @@ class Pipeline:
                 submap = self.slam.mapper.graph.component_of(anchor.keyframe)
                 way = (tracking.stamp_s, self.slam.pose_of(anchor))
                 apart.setdefault(submap, []).append(way)
-                tracking = replace(tracking, state=TrackingState.LOST, inliers=0, anchor=None)
+                tracking = replace(
+                    tracking, state=TrackingState.LOST, inliers=0, method="none", anchor=None,
+                    T_world_camera=None,
+                )  # fmt: skip
             self._labelled[i] = replace(label, tracking=tracking)
         self.topology.keep(self.slam.placed_poses)
         self.recorder.rewrite_frames(self._labelled, self.sequence.stamps_s[len(self._labelled) :])
@@ -278,9 +283,9 @@ class Pipeline:
         )
 
     def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
-        keyframe_poses = self.slam.keyframe_poses
+        keyframe_poses = self.slam.placed_poses
         positions = {key: T[:3, 3] for key, T in keyframe_poses.items()}
-        links = self.slam.links
+        links = [k for k in self.slam.links if k.first in positions and k.second in positions]
         ends = np.array([(positions[k.first], positions[k.second]) for k in links])
         loops = np.array([link.is_loop for link in links], dtype=bool)
         ends = ends.reshape(-1, 2, 3)
@@ -295,7 +300,7 @@ class Pipeline:
 
         Without a place's extent, what is seen through a door bears the label of this side of it.
         """
-        of_keyframe = np.zeros(len(self.slam.keyframe_poses) + 1, dtype=np.uint16)
+        of_keyframe = np.zeros(max(self.slam.keyframe_poses, default=0) + 1, dtype=np.uint16)
         for label in self._labelled:
             tracking = label.tracking
             if tracking.is_keyframe and tracking.anchor is not None:

@@ -67,11 +67,11 @@ class Recorder:
         """Write the poses of all tracked frames so far, as estimated now."""
         write_tum(self.folder.trajectory, trajectory)
 
-    def write_pose_graph(self, graph: PoseGraph, stamps_s: Sequence[float]) -> None:
-        """Write the keyframes' poses and the links between them."""
-        T = np.array([graph[key] for key in sorted(graph.poses)]).reshape(-1, 4, 4)
-        write_tum(self.folder.keyframes, Trajectory(np.array(stamps_s), T))
-        graph.write_g2o(self.folder.pose_graph)
+    def write_pose_graph(self, graph: PoseGraph, stamps_s: Mapping[int, float]) -> None:
+        """Write the poses of keyframes, given with their stamps, and the links between them."""
+        T = np.array([graph[key] for key in stamps_s]).reshape(-1, 4, 4)
+        write_tum(self.folder.keyframes, Trajectory(np.array(list(stamps_s.values())), T))
+        graph.write_g2o(self.folder.pose_graph, set(stamps_s))
 
     def write_memory(self, memory: KeyframeMemory | None) -> None:
         """Write what is kept of the keyframes, if there are any."""

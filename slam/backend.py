@@ -50,7 +50,7 @@ class Backend:
     links : tuple of Link
         Between these.
     placed : set of int
-        Keyframes that hang together with the first one, as far as known.
+        Keyframes of the sub-map that is the world, as far as known.
     """
 
     def __init__(self, mapper: Mapper) -> None:
@@ -98,12 +98,23 @@ class Backend:
         return keyframe
 
     def _take(self) -> None:
-        update = self._pending.popleft().update.result()
+        try:
+            update = self._pending[0].update.result()
+        except Exception:
+            self._abandon()
+            raise
+        self._pending.popleft()
         self.poses, self.links = dict(update.poses), update.links
         self.placed = set(update.placed)
         self.keyframes[update.keyframe.id] = update.keyframe
         self._closures.extend(update.closures)
         self._chain()
+
+    def _abandon(self) -> None:
+        """Give up the keyframes in the making, after one that failed."""
+        for pending in self._pending:
+            pending.update.cancel()
+        self._pending.clear()
 
     def _chain(self) -> None:
         """Put the keyframes in the making where they are believed to be."""

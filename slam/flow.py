@@ -97,6 +97,8 @@ class FlowTracker:
             The prediction.
         """
         settings, intrinsics = self.settings, view.frame.intrinsics
+        if view.grey.shape != template.grey.shape:
+            return None
         moved = poses.transform(T_camera_template, template.points)
         ahead = np.flatnonzero(moved[:, 2] > 0.1)
         predicted = intrinsics.project(moved[ahead])

@@ -16,12 +16,15 @@ from slam.matching import match
 from slam.motion import Motion, estimate_motion, procrustes
 from slam.noise import SensorNoise
 from slam.pose_graph import Link
-from slam.refine import CHI2_95, RefinedMotion, refine_motion
+from slam.refine import RefinedMotion, refine_motion
 from slam.surface import Surface, align_surface, surface_of_image
 from slam.tracker import Located, Tracker, correspondences, one_a_position
 from slam.view import View
 
 FloatArray = NDArray[np.float64]
+
+# 98.4 % of a chi-square with six degrees of freedom.
+STEP_BOUND = 15.6
 
 # So many of each side's strongest features are compared at first, and so many must agree.
 GLANCE = 300
@@ -38,19 +41,19 @@ class Measured:
         By matched features.
     inliers : int
         How many matches it rests on.
-    by_planes : Link or None
-        By the planes that both see, where they agree with the features; it knows nothing of the
-        directions in which these planes slide.
+    by_depth : Link or None
+        By the surface that both see, where it agrees with the features; it knows nothing of the
+        directions in which surface slides on surface.
     """
 
     link: Link
     inliers: int
-    by_planes: Link | None = None
+    by_depth: Link | None = None
 
     @property
     def links(self) -> list[Link]:
         """All that was measured."""
-        return [self.link] if self.by_planes is None else [self.link, self.by_planes]
+        return [self.link] if self.by_depth is None else [self.link, self.by_depth]
 
 
 class Linker:
@@ -151,8 +154,8 @@ class Linker:
                 self.icp.iterations,
             )
         step = poses.logarithm(T @ poses.inverse(T_keyframe_other))
-        # The features must still agree: the step stays within their own 95 % bound.
-        if step @ information @ step >= 2 * CHI2_95:
+        # The features must still agree, and depth must know something.
+        if step @ information @ step >= STEP_BOUND or not H.any():
             return None
         by: Literal["planes", "surface"] = "planes" if self.icp.on == "planes" else "surface"
         return Link(other.id, keyframe.id, poses.inverse(T), H, is_loop=False, by=by)

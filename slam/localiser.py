@@ -48,6 +48,7 @@ class Localiser:
         self._last_view: View | None = None
         self._covariance: FloatArray = np.zeros((6, 6))
         self._velocity: FloatArray = np.eye(4)
+        self._is_broken = False
 
     def locate(self, view: View) -> Estimate | None:
         """Return where a view is, going on from the last one; None if no means finds it."""
@@ -63,9 +64,11 @@ class Localiser:
         estimate : Estimate or None
             What it was found by; None if it is where it is by definition: a keyframe.
         """
-        if self._last is not None:
+        self._velocity = np.eye(4)
+        if self._last is not None and not self._is_broken:
             T_camera_world = poses.inverse(self._pose_of(anchor))
             self._velocity = T_camera_world @ self._pose_of(self._last)
+        self._is_broken = False
         self._covariance = np.zeros((6, 6)) if estimate is None else estimate.covariance
         if estimate is None or estimate.method != "depth":
             self.depth.forget()
@@ -85,7 +88,7 @@ class Localiser:
 
     def stand_still(self) -> None:
         """Predict no motion: what it was is not known any more."""
-        self._velocity = np.eye(4)
+        self._velocity, self._is_broken = np.eye(4), True
 
     def _pose_of(self, anchor: Anchor) -> FloatArray:
         return np.asarray(self._T_world_keyframe()[anchor.keyframe] @ anchor.T_keyframe_camera)

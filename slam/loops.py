@@ -89,7 +89,7 @@ class LoopCloser:
 
     def alike(self, view: View, count: int) -> list[int]:
         """Return the keyframes that look most like a view, for relocalisation."""
-        words = self.index.words_of(view.features.descriptors)
+        words = self.index.words_of(view.features.descriptors, grow=False)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
     def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:

@@ -147,6 +147,7 @@ class Mapper:
         self.closures.extend(closures)
         for link in self.graph.optimise():
             self._forget(link)
+        closures = tuple(closure for closure in closures if closure in self.closures)
         return MapUpdate(
             keyframe, self.graph.poses, closures, tuple(self.graph.links),
             frozenset(self.graph.members_of(self.graph.world)),

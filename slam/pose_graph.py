@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -87,14 +87,12 @@ class PoseGraph:
     def world(self) -> int:
         """The oldest keyframe of the sub-map whose frame is the world's.
 
-        It is the oldest sub-map, but for beginnings with less than a tenth of all keyframes.
+        It is the oldest sub-map, but for beginnings of less than a tenth of the largest one's
+        keyframes.
         """
-        large = (
-            root
-            for root in sorted(self._connections.roots)
-            if len(self._connections.members_of(root)) >= len(self) / 10
-        )
-        return next(large, self._ids[0])
+        size = {root: len(self.members_of(root)) for root in self._connections.roots}
+        enough = max(size.values()) / 10
+        return min(root for root in size if size[root] >= enough)
 
     def members_of(self, component: int) -> list[int]:
         """Return the keyframes of the sub-map with this oldest keyframe."""
@@ -212,13 +210,18 @@ class PoseGraph:
         self.rejected += rejected
         return rejected
 
-    def write_g2o(self, path: Path) -> None:
-        """Write poses and links, without kernels, for other tools (``VERTEX_SE3:QUAT``)."""
+    def write_g2o(self, path: Path, keyframes: Container[int] | None = None) -> None:
+        """Write poses and links, without kernels, for other tools (``VERTEX_SE3:QUAT``).
+
+        Of all keyframes, or of those given.
+        """
         factors, values = gtsam.NonlinearFactorGraph(), gtsam.Values()
         for key, T in zip(self._ids, self._T, strict=True):
-            values.insert(key, gtsam.Pose3(T))
+            if keyframes is None or key in keyframes:
+                values.insert(key, gtsam.Pose3(T))
         for link in self.links:
-            factors.add(factor_of(link, self.settings, robust=False))
+            if keyframes is None or (link.first in keyframes and link.second in keyframes):
+                factors.add(factor_of(link, self.settings, robust=False))
         with replacing(path) as temporary:
             gtsam.writeG2o(factors, values, str(temporary))
 

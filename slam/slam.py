@@ -48,6 +48,9 @@ class LossSettings(Settings):
     min_features: int = Field(
         100, ge=15, description="features with depth that a sub-map begins with, at least"
     )
+    pause: int = Field(
+        10, ge=1, description="lost frames from one try to begin a sub-map to the next"
+    )
     reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
     speed_m_s: float = Field(
         1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
@@ -114,7 +117,7 @@ class Slam:
         # Points of the keyframe tracked against, in its camera: how much of it is still in view.
         self._outline: FloatArray = np.empty((0, 3))
         self._has_begun = self._is_lost = self._needs_features = False
-        self._last_seen_s = 0.0
+        self._last_seen_s, self._lost_in_a_row = 0.0, 0
 
     def prepare(self, frame: Frame) -> View:
         """Do the part that needs no state and may run ahead in a thread."""
@@ -173,7 +176,8 @@ class Slam:
 
     def sketch_map(self) -> PointMap:
         """Return a coarse map to look at while the run goes on."""
-        return self._live_map.update(self.keyframes, self.keyframe_poses)
+        placed = {k: v for k, v in self.keyframes.items() if k in self._backend.placed}
+        return self._live_map.update(placed, self.keyframe_poses)
 
     def _around(self, keyframe: int) -> LocalMap:
         self._backend.finish()
@@ -205,6 +209,7 @@ class Slam:
             estimate = estimate_of(located, view)
             if np.linalg.norm(self.pose_of(estimate.anchor)[:3, 3] - here) < reach:
                 self._is_lost = True
+                self._outline = _known_points(self.keyframes[estimate.reference])
                 return estimate
         return None
 
@@ -215,8 +220,10 @@ class Slam:
             return _without_pose(view, TrackingState.SKIPPED)
         logger.info("frame %d: lost", view.frame.index)
         self._is_lost = True
+        self._lost_in_a_row += 1
         loss = self.settings.loss
-        if not loss.submaps or view.has_point.sum() < loss.min_features:
+        few = view.has_point.sum() < loss.min_features
+        if few or not loss.submaps or self._lost_in_a_row % loss.pause != 1 % loss.pause:
             return _without_pose(view, TrackingState.LOST)
         keyframe = self._backend.start(view, self._localiser.T_world_camera)
         self._is_lost = False
@@ -225,9 +232,7 @@ class Slam:
     def _accept(self, view: View, estimate: Estimate) -> Tracking:
         """Move on to a located view: make it a keyframe, or at least what to track against."""
         state = TrackingState.RELOCALISED if self._is_lost else TrackingState.OK
-        if self._is_lost:
-            self._localiser.stand_still()
-        self._is_lost, self._last_seen_s = False, view.frame.stamp_s
+        self._is_lost, self._last_seen_s, self._lost_in_a_row = False, view.frame.stamp_s, 0
         if self._wants_keyframe(view, estimate):
             known = self._known(view, estimate)
             if known is None:
@@ -238,8 +243,7 @@ class Slam:
         self._localiser.moved_to(view, anchor, estimate)
         if estimate.method == "features":
             self._localiser.follow(view, anchor)
-            points = self.keyframes[anchor.keyframe].points
-            self._outline = points[np.isfinite(points[:, 2])]
+            self._outline = _known_points(self.keyframes[anchor.keyframe])
         return self._report(view, state, anchor, estimate)
 
     def _known(self, view: View, estimate: Estimate) -> Estimate | None:
@@ -267,7 +271,12 @@ class Slam:
 
     def _nearest(self, estimate: Estimate) -> int | None:
         """Return the keyframe that sees most nearly the same, but for the one tracked against."""
-        others = [k for k in self._backend.poses if k != estimate.reference]
+        placed = self._backend.placed
+        others = [
+            k
+            for k in self._backend.poses
+            if k != estimate.reference and (k in placed) == (estimate.reference in placed)
+        ]
         if not others or not len(self._outline):
             return None
         T_world_camera = self.pose_of(estimate.anchor)
@@ -319,12 +328,19 @@ class Slam:
     ) -> Tracking:
         seen = np.empty((0, 2)) if estimate is None else estimate.pixels
         inliers = len(self._outline) if estimate is None else estimate.inliers
+        # Not whether its features happen to be there: that depends on which thread was faster.
+        is_looked_at = is_keyframe or (estimate is not None and estimate.method != "flow")
         return Tracking(
             view.frame.index, view.frame.stamp_s, state, inliers,
             "features" if estimate is None else estimate.method, anchor, self.pose_of(anchor),
             is_keyframe, self._backend.closures(), seen,
-            view if view.is_described or is_keyframe else None,
+            view if is_looked_at else None,
         )  # fmt: skip
+
+
+def _known_points(keyframe: Keyframe) -> FloatArray:
+    """Return where a keyframe's features lie in its camera (N, 3), of those with depth."""
+    return keyframe.points[np.isfinite(keyframe.points[:, 2])]
 
 
 def _without_pose(view: View, state: TrackingState) -> Tracking:

@@ -47,10 +47,14 @@ class TexturelessSettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A motion from the last frame's camera to this one's, with its information (6, 6)."""
+    """A motion from the last frame's camera to this one's, with its information (6, 6).
+
+    `is_held` says whether the surfaces leave no direction in which to slide.
+    """
 
     T_camera_last: FloatArray
     information: FloatArray
+    is_held: bool = True
 
 
 class DepthOdometry:
@@ -119,7 +123,7 @@ class DepthOdometry:
         step = steps[best]
         far = np.linalg.norm(step.T_camera_last[:3, 3]) > self.settings.max_step_m
         needed = self.settings.min_overlap_textured if is_textured else self.settings.min_overlap
-        if far or overlap < needed:
+        if far or overlap < needed or (is_textured and not step.is_held):
             self.forget()
             return None
         if best == 0:
@@ -168,7 +172,10 @@ class DepthOdometry:
         # From the last camera's frame to this one's, where links are weighed.
         T_camera_last = poses.inverse(T_last_camera)
         A = poses.adjoint(T_last_camera)
-        return Step(T_camera_last, A.T @ (held + information) @ A)
+        # In units of the guess's own errors: how well the direction is held that is held least.
+        units = np.repeat(sigma, 3)
+        least = float(np.linalg.eigvalsh(information * np.outer(units, units))[0])
+        return Step(T_camera_last, A.T @ (held + information) @ A, least > 1.0)
 
     def _gaps(self, cloud: FloatArray, step: Step) -> FloatArray:
         """Return how far behind or before the last depth image each point (N,) in its view lies.

@@ -12,9 +12,11 @@ from pathlib import Path
 import pytest
 
 CODE = """
-import sys
+import signal, sys
 from pathlib import Path
 from app.commands import view
+# A job in the background inherits that interrupts are ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 view.WEB_PORT, view.DATA_PORT = int(sys.argv[2]), int(sys.argv[3])
 view.view(Path(sys.argv[1]), web=True)
 """

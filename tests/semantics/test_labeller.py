@@ -1,5 +1,3 @@
-import time
-
 import numpy as np
 import pytest
 from pydantic import ValidationError
@@ -83,33 +81,6 @@ def test_without_a_model_everything_is_unknown_at_once():
 def test_the_window_is_odd():
     with pytest.raises(ValidationError, match="odd"):
         LabellerSettings(window=8)
-
-
-def test_is_cheap():
-    """A frame of 1000 SIFT features against 100 words."""
-    from semantics.classifier import PlaceClassifier
-    from semantics.histogram import BagOfFeatures
-    from semantics.labels import LabelSpace
-    from semantics.model import PlaceModel
-    from semantics.neural_gas import NeuralGas
-    from slam.features import FeatureSettings
-
-    rng = np.random.default_rng(0)
-    bag = BagOfFeatures(NeuralGas.from_prototypes(rng.random((100, 128), np.float32)))
-    names = [f"room{i}" for i in range(8)]
-    classifier = PlaceClassifier.from_arrays(
-        names, rng.random((8, 100)), rng.random(8), np.ones((8, 2))
-    )
-    model = PlaceModel(LabelSpace.of(names), bag, classifier, FeatureSettings())
-    labeller = PlaceLabeller(model, LabellerSettings())
-    item = tracking(0)
-    object.__setattr__(item, "view", seen(features(rng.random((1000, 128), np.float32))))
-    times = []
-    for _ in range(30):
-        start = time.perf_counter()
-        labeller.process(item)
-        times.append(time.perf_counter() - start)
-    assert np.median(times) < 0.01
 
 
 def looked_at(index, word, is_looked_at=True, x=None):
