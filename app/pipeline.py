@@ -106,7 +106,7 @@ class Pipeline:
         return metrics
 
     def _views(self) -> Iterator[View]:
-        """Yield frames with their features, read and described ahead in a thread."""
+        """Yield frames, read and made ready ahead in a thread."""
 
         def prepare(index: int) -> View:
             with self.clock.stage("read"):

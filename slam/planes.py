@@ -17,7 +17,9 @@ FloatArray = NDArray[np.float64]
 class PlaneSettings(Settings):
     """What counts as a plane."""
 
-    enabled: bool = Field(True, description="extract planes and refine motion with them")
+    enabled: bool = Field(
+        True, description="extract planes: for the floor, and motion by depth alone"
+    )
     max_planes: int = Field(5, ge=1, le=50, description="planes taken from a view at most")
     min_share: float = Field(0.06, gt=0, le=1, description="of a view's points, the least a plane")
     iterations: int = Field(128, ge=8, le=10_000, description="RANSAC hypotheses a plane")

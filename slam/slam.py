@@ -85,13 +85,16 @@ class Slam:
 
     The low layer of Kostavelis & Gasteratos (2013, section 3.1): matched features give a coarse
     motion, points of common planes refine it by ICP; here between keyframes, joined in a pose
-    graph with loop closures.
+    graph with loop closures. Between keyframes corners are followed by optical flow; keyframes are
+    linked, adjusted in bundles and searched for loops in a thread. A lost camera begins a sub-map,
+    which is joined where it meets the map.
 
     Examples
     --------
     >>> slam = Slam(SlamSettings())  # doctest: +SKIP
     >>> for frame in sequence:  # doctest: +SKIP
     ...     tracking = slam.process(frame)
+    >>> slam.finish()  # doctest: +SKIP
     """
 
     def __init__(self, settings: SlamSettings, seed: int = 0) -> None:

@@ -1,4 +1,4 @@
-"""Aligning a depth image with the one before, point to plane, by projection."""
+"""Aligning depth images, point to plane, by projection."""
 
 from __future__ import annotations
 

@@ -60,11 +60,11 @@ class Tracking:
     index, stamp_s : int, float
         The frame's.
     state : TrackingState
-        How it fared; only `ok` and `relocalised` frames have a pose.
+        How it fared. A `lost` frame that begins a sub-map has a pose in that.
     inliers : int
         Feature matches that agree with the pose; 0 if it does not come from features.
     method : str
-        What the pose comes from: ``features``, ``depth`` alone, or ``none``.
+        What the pose comes from: ``flow``, ``features``, ``depth`` alone, or ``none``.
     anchor : Anchor or None
         The pose, relative to a keyframe; None where there is none.
     T_world_camera : (4, 4) float64 or None
@@ -76,7 +76,7 @@ class Tracking:
     pixels : (N, 2) float64
         Where the image shows the corners or features that agree with the pose.
     view : View or None
-        The frame itself, where its features were found on the way: keyframes above all.
+        The frame itself, of keyframes and of frames that flow did not track.
     """
 
     index: int
