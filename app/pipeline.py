@@ -181,7 +181,7 @@ class Pipeline:
 
     def _finish(self) -> dict[str, Any]:
         """Write everything, from a whole run or from what there is of it."""
-        self.slam.finish()
+        failure = self._wait()
         self._label_but(0)
         self._take(self.labeller.finish())
         self._place()
@@ -216,7 +216,18 @@ class Pipeline:
             self.warnings,
         )  # fmt: skip
         self.recorder.write_metrics(metrics)
+        if failure is not None:
+            raise failure
         return metrics
+
+    def _wait(self) -> Exception | None:
+        """Wait for the keyframes in the making; return what went wrong, to be raised at the end."""
+        try:
+            self.slam.finish()
+        except Exception as error:
+            logger.exception("the map is without its last keyframes")
+            return error
+        return None
 
     def _place(self) -> None:
         """Say at last of each frame whether its place in the world became known.

@@ -164,6 +164,30 @@ def test_help_has_examples(monkeypatch, capsys, command):
     assert f"roomgraph {command}" in capsys.readouterr().out.split("Examples")[1]
 
 
+@pytest.mark.parametrize("keyframe", [3, 10])
+def test_a_keyframe_that_fails_loses_nothing_before_it(
+    rendered_walk, tmp_path, monkeypatch, keyframe
+):
+    """In the middle of a run the failure ends it; whatever was mapped is on disk."""
+    from slam.mapper import Mapper
+
+    insert = Mapper.insert
+
+    def failing(self, keyframe_id, *arguments):
+        if keyframe_id == keyframe:
+            raise np.linalg.LinAlgError("made to fail")
+        return insert(self, keyframe_id, *arguments)
+
+    monkeypatch.setattr(Mapper, "insert", failing)
+    out = tmp_path / "out"
+    with pytest.raises(np.linalg.LinAlgError, match="made to fail"):
+        roomgraph(monkeypatch, "run", rendered_walk, "-o", out, "--quiet", "--no-rrd")
+    assert len(read_tum(out / "trajectory.tum")) >= keyframe
+    assert json.loads((out / "metrics.json").read_text())["keyframes"] == keyframe
+    assert (out / "map.ply").exists()
+    assert len((out / "frames.csv").read_text().splitlines()) == 61
+
+
 def test_interruption_keeps_what_was_done(rendered_walk, tmp_path, monkeypatch, capsys):
     from app.pipeline import Pipeline
 
