@@ -12,18 +12,23 @@ from datasets.errors import DatasetError
 from datasets.frame import Frame
 from datasets.sequence import Sequence
 from datasets.settings import Settings
+from slam.checks.calibration import CalibrationSettings, find_wrong_focal, pair_of
 from slam.checks.delay import Delay, DelaySettings, find_delay
 from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
 from slam.checks.edges import Outlines, outlines
 from slam.checks.finding import Finding
 from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
 from slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
+from slam.noise import SensorNoise
 
 # Of each frame, every so manieth row and column goes into the statistics of depth.
 DEPTH_STEP = 8
 # Of each window, every so manieth frame says whether depth lies on colour: its neighbours see
 # the same.
 REGISTRATION_STEP = 2
+# Frames after the first of a window that it is matched with: the furthest that shows enough of
+# the same, for the more the camera turned, the more it says of the focal lengths.
+MATCHED_AFTER = (24, 7, 3, 1)
 
 
 class CheckSettings(Settings):
@@ -33,6 +38,7 @@ class CheckSettings(Settings):
     windows: int = Field(10, ge=1, le=100, description="stretches of successive frames looked at")
     window: int = Field(8, ge=1, le=100, description="frames in each")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
+    calibration: CalibrationSettings = CalibrationSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()
     registration: RegistrationSettings = RegistrationSettings()
     delay: DelaySettings = DelaySettings()
@@ -75,7 +81,28 @@ def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding
             f"the typical depth is {scale.median_m:.3g} m at {camera.depth_scale:g} units a metre",
             hint,
         ))  # fmt: skip
-    return (*found, *_out_of_step(sequence, evidence, settings))
+    found += _out_of_step(sequence, evidence, settings)
+    # With anything else wrong, points do not move rigidly either.
+    return tuple(found or _calibration(sequence, settings))
+
+
+def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
+    """Say where the focal lengths contradict the motion of the frames' points."""
+    pairs = []
+    for window in _windows(len(sequence), settings.windows, settings.window):
+        first = window[0]
+        later = (first + step for step in MATCHED_AFTER if first + step < len(sequence))
+        try:
+            pairs.append(
+                pair_of(sequence[first], (sequence[k] for k in later), settings.calibration)
+            )
+        except DatasetError:
+            continue
+    known = [pair for pair in pairs if pair is not None]
+    if not known:
+        return []
+    finding = find_wrong_focal(known, settings.calibration, SensorNoise())
+    return [] if finding is None else [finding]
 
 
 def _gather(sequence: Sequence, settings: CheckSettings) -> Evidence:

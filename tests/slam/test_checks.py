@@ -7,15 +7,21 @@ import cv2
 import numpy as np
 import pytest
 
+from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.errors import DatasetError
 from slam.checks import CheckSettings, check_sequence
+from slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, measure_focal
 from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
 from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
 from slam.checks.registration import Alignment
 from slam.checks.statistics import gain_error
+from slam.noise import SensorNoise
+
+from .helpers import correspondences
 
 KINECT = Intrinsics(640, 480, 525.0, 525.0, 319.5, 239.5)
+MIDDLE, STRETCH = np.array([319.5, 239.5]), np.array([4 / 3, 1.0])
 
 
 @dataclass
@@ -99,6 +105,81 @@ def test_a_time_offset_is_counted_in_frames(rendered_sequence, late):
     assert f"{abs(late)} frame{plural} " in finding.observed
     assert ("late" if late > 0 else "early") in finding.observed
     assert f"by {'-' if late > 0 else '+'}{abs(late) / 30:.3g} s" in finding.suggestion
+
+
+def seen_by(fx=1.0, fy=1.0):
+    """Return a change, and a camera, that claim other focal lengths than the images have."""
+
+    def change(frame, index):
+        camera = replace(frame.intrinsics, fx=fx * frame.intrinsics.fx, fy=fy * frame.intrinsics.fy)
+        return replace(frame, intrinsics=camera)
+
+    return change
+
+
+@pytest.mark.parametrize("factor", [0.8, 0.9, 1.1, 1.2])
+def test_a_wrong_focal_length_is_measured(rendered_sequence, factor):
+    (finding,) = check(rendered_sequence, seen_by(factor, factor))
+    assert finding.kind == "intrinsics"
+    given = rendered_sequence.camera.intrinsics.fx
+    measured = float(finding.observed.split("under fx ")[1].split(",")[0])
+    assert abs(measured - given) < 0.04 * given
+
+
+def made_pairs(rng, motions, count=150):
+    """Pairs of frames that a Kinect's camera (525, 525) takes before and after each motion."""
+    pairs = []
+    for T in motions:
+        found, T, _ = correspondences(rng, count, T=T)
+        pixels = KINECT.project(found.points)
+        pairs.append(Pair(KINECT, pixels, found.points[:, 2], found.pixels, found.depths))
+    return pairs
+
+
+def given_as(pairs, camera):
+    return [replace(pair, camera=camera) for pair in pairs]
+
+
+def turned(rng, count=8):
+    return [
+        poses.exponential(np.r_[rng.normal(0, 0.12, 3), rng.normal(0, 0.1, 3)])
+        for _ in range(count)
+    ]
+
+
+def test_focal_lengths_are_measured_with_the_error_said(rng):
+    estimates = []
+    for _ in range(12):
+        pairs = made_pairs(rng, turned(rng))
+        found = measure_focal(pairs, CalibrationSettings(), SensorNoise())
+        estimates.append(np.log([found.fx / 525, found.fy / 525]) / found.sigma)
+    assert np.abs(np.mean(estimates)) < 1
+    assert 0.5 < np.std(estimates) < 2
+
+
+def test_swapped_focal_lengths_are_named(rng):
+    pairs = made_pairs(rng, turned(rng))
+    wide = replace(KINECT, fx=525.0 * 4 / 3)
+    # As if the image had been stretched: then its camera has another fx than fy.
+    stretched = [
+        replace(p, camera=wide, pixels=(p.pixels - MIDDLE) * STRETCH + MIDDLE,
+                seen=(p.seen - MIDDLE) * STRETCH + MIDDLE)
+        for p in pairs
+    ]  # fmt: skip
+    settings, noise = CalibrationSettings(), SensorNoise()
+    assert find_wrong_focal(stretched, settings, noise) is None
+    swapped = given_as(stretched, replace(wide, fx=wide.fy, fy=wide.fx))
+    assert "swapped" in find_wrong_focal(swapped, settings, noise).suggestion
+
+
+def test_a_camera_that_does_not_turn_says_nothing_of_its_focal_length(rng):
+    """A wrong focal length stretches points and way alike."""
+    slides = [poses.pose(t=(x, 0.5 * x, 0)) for x in (-0.3, -0.2, -0.1, 0.1, 0.2, 0.3)]
+    wrong = replace(KINECT, fx=1.2 * 525, fy=1.2 * 525)
+    pairs = given_as(made_pairs(rng, slides), wrong)
+    found = measure_focal(pairs, CalibrationSettings(), SensorNoise())
+    assert found.sigma.min() > 0.05
+    assert find_wrong_focal(pairs, CalibrationSettings(), SensorNoise()) is None
 
 
 def test_nothing_is_said_of_images_without_outlines(rendered_sequence):
