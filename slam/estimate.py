@@ -14,6 +14,9 @@ from slam.tracking import Anchor
 FloatArray = NDArray[np.float64]
 Method = Literal["flow", "features", "depth"]
 
+# Information that every direction has at least, for matrices to be inverted.
+WEAKEST = 1e-6
+
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
@@ -54,4 +57,13 @@ class Estimate:
     @property
     def covariance(self) -> FloatArray:
         """Covariance (6, 6) in the camera's frame."""
-        return np.asarray(np.linalg.inv(self.information + 1e-6 * np.eye(6)))
+        return inverted(self.information)
+
+
+def inverted(information: FloatArray) -> FloatArray:
+    """Return the covariance (6, 6) that belongs to an information matrix.
+
+    Directions of which nothing is known make it singular: they get a standard deviation of a
+    thousand metres or radians.
+    """
+    return np.asarray(np.linalg.inv(information + WEAKEST * np.eye(6)))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datasets import poses
-from slam.estimate import Estimate
+from slam.estimate import Estimate, inverted
 from slam.flow import FlowTracker, Template
 from slam.local_map import LocalMap
 from slam.textureless import DepthOdometry
@@ -51,7 +51,13 @@ class Localiser:
         self._is_broken = False
 
     def locate(self, view: View) -> Estimate | None:
-        """Return where a view is, going on from the last one; None if no means finds it."""
+        """Return where a view is, going on from the last one; None if no means finds it.
+
+        A view without any depth can be followed by its corners, but it is not worth more effort:
+        nothing could be mapped from it.
+        """
+        if not view.has_depth:
+            return self._by_flow(view)
         return self._by_flow(view) or self._by_features(view) or self._by_depth(view)
 
     def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
@@ -111,7 +117,7 @@ class Localiser:
         motion, seen = followed
         T = motion.T_camera_reference
         carried = poses.adjoint(T) @ self._template_covariance @ poses.adjoint(T).T
-        covariance: FloatArray = np.linalg.inv(motion.information) + carried
+        covariance = inverted(motion.information) + carried
         return Estimate(
             template.anchor.keyframe, T @ poses.inverse(template.anchor.T_keyframe_camera),
             np.asarray(np.linalg.inv(covariance)), motion.count,
@@ -143,10 +149,11 @@ class Localiser:
         T = step.T_camera_last @ poses.inverse(self._last.T_keyframe_camera)
         # The step's error comes on top of that of the pose it starts from.
         carried = poses.adjoint(step.T_camera_last)
-        covariance = carried @ self._covariance @ carried.T + np.linalg.inv(step.information)
+        covariance: FloatArray = carried @ self._covariance @ carried.T + inverted(step.information)
         return Estimate(
-            self._last.keyframe, T, np.linalg.inv(covariance), 0, 0.0, "depth", np.empty((0, 2))
-        )
+            self._last.keyframe, T, np.asarray(np.linalg.inv(covariance)), 0, 0.0, "depth",
+            np.empty((0, 2)),
+        )  # fmt: skip
 
 
 def estimate_of(located: Located, view: View) -> Estimate:

@@ -125,7 +125,7 @@ class Slam:
     def prepare(self, frame: Frame) -> View:
         """Do the part that needs no state and may run ahead in a thread."""
         view = View(frame, self._extractor, self.settings.max_depth_m)
-        if self._needs_features:
+        if self._needs_features and view.has_depth:
             view.describe()
         return view
 
@@ -134,7 +134,9 @@ class Slam:
         view = frame if isinstance(frame, View) else self.prepare(frame)
         if not self._has_begun:
             return self._begin(view)
-        estimate = self._localiser.locate(view) or self._relocalise(view)
+        estimate = self._localiser.locate(view)
+        if estimate is None and view.has_depth:
+            estimate = self._relocalise(view)
         self._needs_features = estimate is None or estimate.method != "flow"
         if estimate is None:
             return self._lose(view)
@@ -303,10 +305,12 @@ class Slam:
 
     def _wants_keyframe(self, view: View, estimate: Estimate) -> bool:
         """Whether a view shows new space, or is losing touch with its keyframe."""
+        if not view.has_depth:
+            return False
         settings, T = self.settings.keyframes, estimate.T_camera_reference
         turned = np.degrees(poses.rotation_angle(T)) > settings.max_angle_deg
         if estimate.method == "depth" or not len(self._outline):
-            return bool(turned or np.linalg.norm(T[:3, 3]) > 0.3)
+            return bool(turned or np.linalg.norm(T[:3, 3]) > self.settings.textureless.keyframe_m)
         moved = poses.transform(T, self._outline)
         ahead = moved[moved[:, 2] > 0.1]
         pixels = view.frame.intrinsics.project(ahead)

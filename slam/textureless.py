@@ -37,6 +37,9 @@ class TexturelessSettings(Settings):
     )
     fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the surface")
     max_step_m: float = Field(0.5, gt=0, le=5, description="a longer step is not believed")
+    keyframe_m: float = Field(
+        0.3, gt=0, le=5, description="way from one keyframe to the next by depth alone, metres"
+    )
     sigma_rotation_rad: float = Field(
         0.02, gt=0, le=1, description="error of a step where no plane holds it, radians"
     )
