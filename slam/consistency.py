@@ -38,6 +38,10 @@ class BeliefSettings(Settings):
     join_way_m: float = Field(
         1.0, ge=0, le=100, description="way over which loops agree before they join two sub-maps"
     )
+    join_turn_deg: float = Field(
+        60.0, ge=0, le=180,
+        description="or turn, of both sides: about what a camera sees at once",
+    )  # fmt: skip
     patience: int = Field(30, ge=1, description="keyframes for which a loop waits to be confirmed")
 
 
@@ -48,8 +52,8 @@ class LoopBelief:
     correction that they ask for is larger than the way in between can have caused. A correction
     within the likely drift along the shortest way of links passes at once; a larger one waits
     for loops of other keyframes that form a consistent cycle with it; one beyond the possible
-    drift is dropped. A loop between two sub-maps always waits, and
-    needs agreement over some way.
+    drift is dropped. A loop between two sub-maps always waits, and needs agreement over some way,
+    or over a turn that shows other things.
     """
 
     def __init__(self, settings: BeliefSettings) -> None:
@@ -81,12 +85,19 @@ class LoopBelief:
         """Whether loops rest on more than one thing that looks the same.
 
         Successive keyframes that see the same poster agree with each other, but are no witnesses of
-        one another: the camera must have moved on, and have met several keyframes.
+        one another: the camera must have moved on, or have turned to something else, and have met
+        several keyframes.
         """
-        centres = np.array([graph[m.link.second][:3, 3] for m in agreeing])
-        way = np.linalg.norm(centres[:, None] - centres, axis=-1).max()
-        met = {m.link.first for m in agreeing}
-        return len(met) > 1 and bool(way >= self.settings.join_way_m)
+        met = sorted({m.link.first for m in agreeing})
+        if len(met) < 2:
+            return False
+        seconds = np.array([graph[m.link.second] for m in agreeing])
+        centres = seconds[:, :3, 3]
+        if np.linalg.norm(centres[:, None] - centres, axis=-1).max() >= self.settings.join_way_m:
+            return True
+        # What was met must have turned along: else it is one thing, seen at either edge.
+        turn = min(_turn_deg(seconds), _turn_deg(np.array([graph[k] for k in met])))
+        return turn >= self.settings.join_turn_deg
 
     def _can_be_drift(self, link: Link, graph: PoseGraph, times: float) -> bool:
         """Whether the shortest way of links is long enough to have drifted so far."""
@@ -120,6 +131,12 @@ def _size(motion: FloatArray) -> tuple[float, float]:
     """Return a motion's metres and degrees."""
     metres = float(np.linalg.norm(motion[:3, 3]))
     return metres, float(np.degrees(poses.rotation_angle(motion)))
+
+
+def _turn_deg(T_world_camera: FloatArray) -> float:
+    """Return the largest angle between the optical axes of cameras (N, 4, 4), degrees."""
+    axes = T_world_camera[:, :3, 2]
+    return float(np.degrees(np.arccos(np.clip(axes @ axes.T, -1.0, 1.0).min())))
 
 
 def _holds(link: Link, graph: PoseGraph) -> bool:
