@@ -5,23 +5,26 @@ from __future__ import annotations
 import rerun.blueprint as rrb
 
 from app.rerun_framing import Framing
-from app.rerun_scene import PLAN_SIZE
+from app.rerun_graph import PLAN_SIZE
 
 BACKGROUND = (16, 18, 22)
 _CAMERA = ("+ /world/camera", "+ /world/camera/image", "+ /world/camera/image/colour")
-_PATH = ("+ /world/trajectory/**", "+ /world/pose_graph/**", "+ /world/keyframes")
+_PATH = ("+ /world/trajectory/**", "+ /world/pose_graph/**", "+ /world/keyframes/**")
+_NAMES = ("+ /world/graph/places", "+ /world/graph/doors")
 
 
-def build_blueprint(framing: Framing | None) -> rrb.Blueprint:
+def build_blueprint(framing: Framing | None, labelled: bool) -> rrb.Blueprint:
     """Lay out maps, images, graph, plots and events side by side.
 
     Parameters
     ----------
     framing : Framing or None
         Where the maps are seen from; None leaves it to the viewer, which follows the scene's size.
+    labelled : bool
+        Whether there are labels; what only shows them is left out if not.
     """
     return rrb.Blueprint(
-        rrb.Vertical(_maps(framing), _details(), row_shares=[2, 1]),
+        rrb.Vertical(_maps(framing, labelled), _details(labelled), row_shares=[2, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(state="collapsed", timeline="frame", play_state="following"),
@@ -29,11 +32,14 @@ def build_blueprint(framing: Framing | None) -> rrb.Blueprint:
     )
 
 
-def _maps(framing: Framing | None) -> rrb.Horizontal:
-    coloured = ["+ /world/map/colour", "+ /world/map/above", *_PATH, "+ /world/graph/places"]
+def _maps(framing: Framing | None, labelled: bool) -> rrb.Horizontal:
+    coloured = ["+ /world/map/colour", "+ /world/map/above", *_PATH, *_NAMES]
+    rooms = ["+ /world/map/labels", "+ /world/graph/**"]
     return rrb.Horizontal(
-        _map_view("Map (path: estimate blue, truth yellow, loops pink)", coloured, framing),
-        _map_view("Map by label", ["+ /world/map/labels", "+ /world/graph/**"], framing),
+        _map_view("Map · path blue, truth yellow, loops pink", coloured, framing),
+        _map_view(
+            f"{'Map by label' if labelled else 'Rooms'} · doors orange, graph white", rooms, framing
+        ),
         rrb.Vertical(
             rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
             rrb.Spatial2DView(name="Depth", origin="/world/camera/depth"),
@@ -42,18 +48,20 @@ def _maps(framing: Framing | None) -> rrb.Horizontal:
     )
 
 
-def _details() -> rrb.Horizontal:
+def _details(labelled: bool) -> rrb.Horizontal:
     width, height = PLAN_SIZE
     bounds = rrb.VisualBounds2D(
         x_range=(-1.25 * width, 1.25 * width), y_range=(-1.15 * height, 1.15 * height)
     )
     score = rrb.ScalarAxis(range=(0.0, 1.05), zoom_lock=True)
+    name = "Label and tracking" if labelled else "Tracking"
+    over_time = (
+        rrb.StateTimelineView(name=name, origin="/timeline"),
+        rrb.TimeSeriesView(name="Label score", origin="/plots/score", axis_y=score),
+    )
     return rrb.Horizontal(
         rrb.GraphView(name="Places", origin="/graph", visual_bounds=bounds),
-        rrb.Vertical(
-            rrb.StateTimelineView(name="Label and tracking", origin="/timeline"),
-            rrb.TimeSeriesView(name="Label score", origin="/plots/score", axis_y=score),
-        ),
+        rrb.Vertical(*over_time) if labelled else over_time[0],
         rrb.TimeSeriesView(name="Inliers", origin="/plots/inliers"),
         rrb.Vertical(
             rrb.TextDocumentView(name="Now", origin="/status"),

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
+from app.floor_lines import doorway_ends
 from datasets import poses
 from datasets.files import replacing
 from semantics.graph import Doorway, SemanticGraph
@@ -49,7 +50,7 @@ def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: Float
     _draw_rooms(axes, graph)
     _draw_cells(axes, graph, grid)
     for door in graph.doorways:
-        _draw_doorway(axes, door, grid)
+        _draw_doorway(axes, graph, door)
     path = poses.transform(grid.T_map_world, path_world)
     axes.plot(path[:, 0], path[:, 1], color=_INK, lw=0.7, alpha=0.55, zorder=4)
     if len(path):
@@ -114,24 +115,11 @@ def _draw_cells(axes: Axes, graph: SemanticGraph, grid: OccupancyGrid) -> None:
     axes.axis(limits)
 
 
-def _draw_doorway(axes: Axes, door: Doorway, grid: OccupancyGrid) -> None:
-    """Draw a white gap with jambs along the wall that the doorway is in."""
-    half = (door.width_m or 0.8) / 2
-    along = _wall_direction(door.position_map, grid)
-    ends = door.position_map + np.array([[-half], [half]]) * along
+def _draw_doorway(axes: Axes, graph: SemanticGraph, door: Doorway) -> None:
+    """Draw a white gap with a sill along the wall that the doorway is in."""
+    ends = doorway_ends(graph, door)
     axes.plot(*ends.T, color="white", lw=4.0, solid_capstyle="butt", zorder=3)
     axes.plot(*ends.T, color="#b4572a", lw=1.6, solid_capstyle="butt", zorder=3)
-
-
-def _wall_direction(position: FloatArray, grid: OccupancyGrid) -> FloatArray:
-    """Return the map's axis (2,) along which there is more wall around a spot."""
-    column, row = ((position - grid.origin_xy) / grid.cell_m).astype(int)
-    far, near = round(1.2 / grid.cell_m), round(0.15 / grid.cell_m)
-    occupied = np.pad(grid.cells == OCCUPIED, far)
-    row, column = row + far, column + far
-    across = occupied[row - near : row + near + 1, column - far : column + far + 1].sum()
-    upwards = occupied[row - far : row + far + 1, column - near : column + near + 1].sum()
-    return np.array([1.0, 0.0]) if across >= upwards else np.array([0.0, 1.0])
 
 
 def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:

@@ -33,7 +33,7 @@ from slam.map import PointMap
 from slam.memory import remember
 from slam.slam import Slam
 from slam.survey import Survey, survey
-from slam.tracking import Tracking, TrackingState
+from slam.tracking import Anchor, Tracking, TrackingState
 from slam.view import View
 
 logger = logging.getLogger(__name__)
@@ -150,16 +150,18 @@ class Pipeline:
 
     def _enter(self, frame: int) -> None:
         """Show the graph with its new node, and say so if it lies in another place."""
-        graph = self.topology.snapshot(self.slam.keyframe_poses)
+        graph = self.topology.snapshot(self.slam.placed_poses, partial=True)
         self.viewer.show_graph(frame, graph)
         places = [node.place for node in graph.nodes[-2:]]
+        if not places or graph.nodes[-1].frame != frame:
+            return  # The node lies in a sub-map that is nowhere yet.
         if places[-1] != UNKNOWN and (len(places) == 1 or places[0] != places[1]):
             logger.info("frame %d: entering %s", frame, places[-1])
             self.viewer.log(frame, f"entering {places[-1]}")
 
     def _show(self, view: View, tracking: Tracking) -> None:
         with self.clock.stage("view"):
-            self.viewer.show_frame(view.frame, tracking)
+            self.viewer.show_frame(view.frame, self._in_world(tracking))
             if tracking.is_keyframe:
                 self.recorder.add_thumbnail(view.frame)
             for event in _events(tracking):
@@ -168,6 +170,13 @@ class Pipeline:
                 self._drawn_keyframes = len(self.slam.keyframes)
                 self.viewer.show_map(tracking.index, lambda: self._map_view(self.slam.sketch_map()))
         self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
+
+    def _in_world(self, tracking: Tracking) -> Tracking:
+        """Return a frame without its pose where that lies in a sub-map that is nowhere yet."""
+        anchor = tracking.anchor
+        if anchor is None or self.slam.is_placed(anchor):
+            return tracking
+        return replace(tracking, T_world_camera=None)
 
     def _is_map_due(self, tracking: Tracking) -> bool:
         """Whether the map has grown enough, or a loop has bent it, since it was last shown."""
@@ -194,7 +203,10 @@ class Pipeline:
         with self.clock.stage("extents"):
             graph = self._final_graph(surveyed)
             view = self._map_view(points, graph)
-        trajectory = self._trajectory()
+        trajectory, last = self._trajectory(), max(0, len(self._labelled) - 1)
+        with self.clock.stage("view"):
+            self.viewer.show_map(last, lambda: view)
+            self.viewer.show_graph(last, graph)
         with self.clock.stage("write"):
             self.recorder.write_trajectory(trajectory)
             self.recorder.write_graph(graph)
@@ -207,9 +219,6 @@ class Pipeline:
             if surveyed is not None:
                 self.recorder.write_occupancy(surveyed.grid)
         with self.clock.stage("close"):
-            last = max(0, len(self._labelled) - 1)
-            self.viewer.show_map(last, lambda: view)
-            self.viewer.show_graph(last, graph)
             self.viewer.close()
         metrics = run_metrics(
             self.sequence, self.slam, self._labelled, trajectory, graph, points, self.clock,
@@ -284,26 +293,29 @@ class Pipeline:
         ]
         return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
 
+    def _way(self) -> list[tuple[Tracking, Anchor]]:
+        """Return the labelled frames that have a place in the world, and what holds their pose."""
+        return [
+            (label.tracking, anchor)
+            for label in self._labelled
+            if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
+        ]
+
     def _trajectory(self) -> Trajectory:
-        return _trajectory_of(
-            [
-                (label.tracking.stamp_s, self.slam.pose_of(anchor))
-                for label in self._labelled
-                if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
-            ]
-        )
+        return _trajectory_of([(t.stamp_s, self.slam.pose_of(anchor)) for t, anchor in self._way()])
 
     def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
-        keyframe_poses = self.slam.placed_poses
-        positions = {key: T[:3, 3] for key, T in keyframe_poses.items()}
-        links = [k for k in self.slam.links if k.first in positions and k.second in positions]
-        ends = np.array([(positions[k.first], positions[k.second]) for k in links])
+        T = self.slam.placed_poses
+        links = [k for k in self.slam.links if k.first in T and k.second in T]
+        ends = np.array([(T[k.first][:3, 3], T[k.second][:3, 3]) for k in links])
         loops = np.array([link.is_loop for link in links], dtype=bool)
         ends = ends.reshape(-1, 2, 3)
+        way = self._way()
         return MapView(
-            points, self._label_ids(points, graph),
-            np.array(list(positions.values())).reshape(-1, 3),
-            ends[~loops], ends[loops], self._trajectory().positions,
+            points, self._label_ids(points, graph), tuple(T),
+            np.array(list(T.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
+            self._trajectory().positions, tuple(t.index for t, _ in way),
+            tuple(t.state for t, _ in way),
         )  # fmt: skip
 
     def _label_ids(self, points: PointMap, graph: SemanticGraph | None) -> NDArray[np.uint16]:

@@ -13,8 +13,14 @@ class ViewerSettings(Settings):
     colour_stride: int = Field(1, ge=1, description="every n-th colour image is recorded")
     depth_stride: int = Field(2, ge=1, description="every n-th depth image is recorded")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
-    depth_step: int = Field(2, ge=1, le=16, description="every n-th row and column of the depth")
+    depth_step: int = Field(3, ge=1, le=16, description="every n-th row and column of the depth")
     max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
+    picture_spacing_m: float = Field(
+        1.5, gt=0, description="between keyframes whose pictures stand in the map"
+    )
+    picture_turn_deg: float = Field(
+        90.0, gt=0, le=180, description="or by how much nearer ones look elsewhere"
+    )
     max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
     max_points_total: int = Field(
         1_500_000, ge=0, description="points of all maps on the way, spread over the frames"

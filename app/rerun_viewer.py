@@ -16,9 +16,12 @@ from app import rerun_images, rerun_scene
 from app.blueprint import build_blueprint
 from app.errors import AppError
 from app.rerun_framing import below_ceiling, frame_scene, level_axes
+from app.rerun_graph import log_graph
+from app.rerun_keyframes import KeyframePictures
 from app.rerun_scene import Pose
 from app.rerun_settings import ViewerSettings
 from app.rerun_sinks import open_sinks
+from app.thumbnails import WIDTH, encode_thumbnail
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
@@ -66,7 +69,10 @@ class RerunViewer:
         self._recent: deque[Pose] = deque(maxlen=_RECENT)
         self._points_drawn = 0
         self._said: dict[str, str] = {}
-        self._label = ""
+        self._pictures = KeyframePictures(
+            self.settings.picture_spacing_m, self.settings.picture_turn_deg
+        )
+        self._told: dict[int, Tracking] = {}
         self._map: tuple[int, MapView] | None = None
 
     def start(self, session: SessionView) -> None:
@@ -84,31 +90,40 @@ class RerunViewer:
         rerun_scene.log_fixed(self._recording, session, self.settings.depth_step)
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
-        """Show a frame with its features and, where it has one, its pose."""
+        """Show a frame with its features and, where it has one in the world, its pose."""
         self._stamps[tracking.index] = tracking.stamp_s
+        self._told[tracking.index] = tracking.without_view()
         self._at(tracking.index)
         self._show_images(frame, tracking)
         self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))
-        self._say("timeline/tracking", tracking.state.value)
+        self._say("timeline/tracking", rerun_scene.state_word(tracking))
         if tracking.T_world_camera is not None:
             self._show_pose(Pose(tracking.index, tracking.state, tracking.T_world_camera))
-        self._show_status(tracking)
+        if tracking.is_keyframe and tracking.anchor is not None:
+            camera = rerun_images.resized(frame.intrinsics, WIDTH)
+            self._pictures.keep(tracking.anchor.keyframe, encode_thumbnail(frame.colour), camera)
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
         """Show a frame's label, which is known a few frames after the frame."""
         self._at(frame)
-        self._recording.log("plots/score", rr.Scalars(score))
-        self._say("timeline/label", label)
-        self._label = f"{label.replace('_', ' ')} · {score:.2f}"
+        if self._has_labels:
+            self._recording.log("plots/score", rr.Scalars(score))
+            self._say("timeline/label", label)
+        tracking = self._told.pop(frame, None)
+        if tracking is not None:
+            words = f"{label.replace('_', ' ')} · {score:.2f}"
+            self._show_status(tracking, words if self._has_labels else "places not labelled")
 
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
         """Show the map as it is at a frame; takes the place of the one before."""
         view = draw()
         self._map = (frame, view)
-        self._recent.clear()
+        last = view.frames[-1] if view.frames else -1
+        self._recent = deque((p for p in self._recent if p.frame >= last), maxlen=_RECENT)
         self._at(frame)
-        self._recording.log("world/trajectory/recent", rr.LineStrips3D([]))
+        self._draw_recent()
         self._draw_path(view)
+        self._pictures.draw(self._recording, view)
         size = min(len(view.points), self.settings.max_points)
         if self._points_drawn + size <= self._points_allowed(frame):
             self._points_drawn += size
@@ -117,7 +132,7 @@ class RerunViewer:
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
         """Show the topological graph as it is at a frame."""
         self._at(frame)
-        rerun_scene.log_graph(self._recording, graph, level_axes(self._all_poses()))
+        log_graph(self._recording, graph, level_axes(self._all_poses()))
 
     def log(self, frame: int, text: str) -> None:
         """Show an event: a loop closed, a place entered, tracking lost."""
@@ -136,10 +151,15 @@ class RerunViewer:
 
     def _layout(self, points_world: FloatArray, path: FloatArray) -> rrb.Blueprint:
         """Return the layout with the views set on what is there; on nothing if there is nothing."""
-        if not len(points_world) and not len(path):
-            return build_blueprint(None)
-        axes = level_axes(self._all_poses())
-        return build_blueprint(frame_scene(points_world, path, axes))
+        framing = None
+        if len(points_world) or len(path):
+            framing = frame_scene(points_world, path, level_axes(self._all_poses()))
+        return build_blueprint(framing, self._has_labels)
+
+    @property
+    def _has_labels(self) -> bool:
+        """Whether there is more than ``unknown``."""
+        return len(self._session.labels) > 1
 
     def _at(self, frame: int) -> None:
         """Set the time of what is said next; a frame that has not come yet has no stamp."""
@@ -175,22 +195,28 @@ class RerunViewer:
         T = pose.T_world_camera
         self._poses.append(pose)
         self._recent.append(pose)
-        log = self._recording.log
-        log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
-        positions = np.array([p.T_world_camera[:3, 3] for p in self._recent])
-        log("world/trajectory/recent", rerun_scene.trajectory(positions, list(self._recent)))
+        self._recording.log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
+        self._draw_recent()
 
-    def _show_status(self, tracking: Tracking) -> None:
+    def _draw_recent(self) -> None:
+        """Draw the path since the last frame that the last map's path has."""
+        positions = np.array([p.T_world_camera[:3, 3] for p in self._recent]).reshape(-1, 3)
+        frames, states = [p.frame for p in self._recent], [p.state for p in self._recent]
+        path = rerun_scene.trajectory(positions, frames, states)
+        self._recording.log("world/trajectory/recent", path)
+
+    def _show_status(self, tracking: Tracking, label: str) -> None:
         lines = [
-            f"# {self._label or 'label to come'}",
+            f"# {label}",
             f"frame {tracking.index + 1} of {self._session.frames} · "
-            f"**{tracking.state.value}** · {tracking.inliers} inliers ({tracking.method})",
+            f"**{rerun_scene.state_word(tracking)}** · {tracking.inliers} inliers "
+            f"({tracking.method})",
         ]
         document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
         self._recording.log("status", document)
 
     def _draw_path(self, view: MapView) -> None:
-        path = rerun_scene.trajectory(view.trajectory, self._poses)
+        path = rerun_scene.trajectory(view.trajectory, view.frames, view.states)
         self._recording.log("world/trajectory/estimate", path)
         rerun_scene.log_pose_graph(self._recording, view)
 

@@ -104,6 +104,7 @@ def _viewer(folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewe
     if not showing.live and not showing.save:
         return NoViewer()
     from app.rerun_viewer import RerunViewer
+    from app.threaded_viewer import ThreadedViewer
 
     save = folder.recording if showing.save else None
-    return RerunViewer(save, showing.live, settings.viewer)
+    return ThreadedViewer(RerunViewer(save, showing.live, settings.viewer))

@@ -26,20 +26,22 @@ class ThumbnailWriter:
 
     def add(self, frame: int, colour: NDArray[np.uint8]) -> None:
         """Add frame number `frame`, an image (H, W, 3) in red, green, blue."""
-        height = max(1, round(colour.shape[0] * WIDTH / colour.shape[1]))
-        small = cv2.resize(colour, (WIDTH, height), interpolation=cv2.INTER_AREA)
-        bgr = cv2.cvtColor(small, cv2.COLOR_RGB2BGR)
-        done, data = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, _QUALITY])
-        if not done:
-            raise AppError("thumbnail cannot be encoded", where=f"frame {frame}")
         if self._file is None:
             self._file = zipfile.ZipFile(self.path, "w", zipfile.ZIP_STORED)
-        self._file.writestr(zipfile.ZipInfo(_name(frame), _DATE), data.tobytes())
+        self._file.writestr(zipfile.ZipInfo(_name(frame), _DATE), encode_thumbnail(colour))
 
     def close(self) -> None:
         """Write the file's directory."""
         if self._file is not None:
             self._file.close()
+
+
+def encode_thumbnail(colour: NDArray[np.uint8]) -> bytes:
+    """Return an image (H, W, 3) in red, green, blue as a small JPEG, `WIDTH` pixels wide."""
+    height = max(1, round(colour.shape[0] * WIDTH / colour.shape[1]))
+    small = cv2.resize(colour, (WIDTH, height), interpolation=cv2.INTER_AREA)
+    bgr = cv2.cvtColor(small, cv2.COLOR_RGB2BGR)
+    return bytes(cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, _QUALITY])[1])
 
 
 def read_thumbnails(path: Path) -> dict[int, bytes]:

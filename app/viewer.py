@@ -14,7 +14,7 @@ from datasets.frame import Frame
 from semantics.graph import SemanticGraph
 from semantics.labels import LabelSpace
 from slam.map import PointMap
-from slam.tracking import Tracking
+from slam.tracking import Tracking, TrackingState
 
 FloatArray = NDArray[np.float64]
 
@@ -54,22 +54,31 @@ class MapView:
         N points, metres, with colours.
     label_ids : (N,) uint16
         Of the points.
-    keyframe_positions : (K, 3) float64
-        Camera centres of the keyframes, metres.
+    keyframes : tuple of int
+        Ids of the K keyframes that have a place in the world.
+    T_world_keyframe : (K, 4, 4) float64
+        Their poses.
     links : (L, 2, 3) float64
         Ends of the pose graph's links.
     loops : (M, 2, 3) float64
         Ends of the links that close loops.
     trajectory : (F, 3) float64
-        Camera centres of all frames with a pose so far, as estimated now.
+        Camera centres of all labelled frames with a place in the world, as estimated now.
+    frames : tuple of int
+        Which frames these are.
+    states : tuple of TrackingState
+        How they fared.
     """
 
     points: PointMap
     label_ids: NDArray[np.uint16]
-    keyframe_positions: FloatArray
+    keyframes: tuple[int, ...]
+    T_world_keyframe: FloatArray
     links: FloatArray
     loops: FloatArray
     trajectory: FloatArray
+    frames: tuple[int, ...]
+    states: tuple[TrackingState, ...]
 
 
 class Viewer(Protocol):
@@ -80,7 +89,7 @@ class Viewer(Protocol):
         ...
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
-        """Show a frame with its features and, where it has one, its pose."""
+        """Show a frame with its features and, where it has one in the world, its pose."""
         ...
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:

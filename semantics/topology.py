@@ -118,26 +118,29 @@ class TopologicalMap:
         self._drop(frame_label, anchor, T_world_keyframe)
         return True
 
-    def snapshot(self, T_world_keyframe: Poses) -> SemanticGraph:
+    def snapshot(self, T_world_keyframe: Poses, partial: bool = False) -> SemanticGraph:
         """Return the graph as it lies in the world now.
 
         Parameters
         ----------
         T_world_keyframe : mapping of int to (4, 4) float64
             Current pose of each keyframe.
+        partial : bool
+            Leave out the nodes whose keyframe has no pose.
 
         Raises
         ------
         SemanticsError
-            A keyframe that a node is anchored to has no pose.
+            A keyframe that a node is anchored to has no pose, and `partial` is not given.
         """
+        kept = [n for n in self._nodes if not partial or n.anchor.keyframe in T_world_keyframe]
         nodes = tuple(
             GraphNode(
                 i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
                 node.label, node.label_id, self._place(node), node.score, node.histogram,
                 node.evidence,
             )
-            for i, node in enumerate(self._nodes)
+            for i, node in enumerate(kept)
         )  # fmt: skip
         positions = np.array([node.position_world for node in nodes]).reshape(-1, 3)
         return SemanticGraph(self.labels, nodes, self._edges(positions))

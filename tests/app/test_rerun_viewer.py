@@ -8,20 +8,21 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from rerun.chunk import RrdReader
 from scipy.spatial.transform import Rotation
 
 from app.errors import AppError
+from app.rerun_graph import place_spots
 from app.rerun_images import encode_depth, has_depth, thinned
-from app.rerun_scene import place_spots
 from app.rerun_viewer import RerunViewer, ViewerSettings, thinned_map
 from app.viewer import MapView, SessionView
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
-from datasets.poses import pose
-from semantics.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from datasets.poses import pose, transform
+from semantics.graph import Doorway, EdgeKind, Extent, GraphEdge, GraphNode, SemanticGraph
 from semantics.labels import LabelSpace
 from slam.map import PointMap
 from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
@@ -29,8 +30,11 @@ from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 N_FRAMES, LOST = 12, 5
 CAMERA = Intrinsics(64, 48, 60.0, 60.0, 31.5, 23.5)
 LABELS = LabelSpace.of(["kitchen", "office"])
+T_MAP_WORLD = pose(Rotation.from_euler("XZ", [-90, 30], degrees=True).as_matrix(), [1, 2, 1.5])
 # Bytes that a recording may take: once, for each frame of 64 x 48, for each point of each map.
 BOUND_FIXED, BOUND_A_FRAME, BOUND_A_POINT = 128 * 1024, 10 * 1024, 32
+# And for each picture of a keyframe: 192 x 144, here of noise.
+BOUND_A_PICTURE = 24 * 1024
 
 
 def frame_of(index: int) -> Frame:
@@ -49,7 +53,8 @@ def tracking_of(index: int) -> Tracking:
     closures = (LoopClosure(9, 0, 40),) if index == 9 else ()
     return Tracking(
         index, 100.0 + index / 10, state, 20 + index, "features",
-        None if T is None else Anchor(0, T), T, index % 3 == 0, closures, pixels,
+        None if T is None else Anchor(index // 3 * 3, np.eye(4)), T, index % 3 == 0, closures,
+        pixels,
     )  # fmt: skip
 
 
@@ -62,12 +67,15 @@ def map_of(frames: int) -> MapView:
     rng = np.random.default_rng(0)
     points = rng.uniform(-3, 3, (2000, 3)).astype(np.float32)
     colours = rng.integers(0, 255, (2000, 3), dtype=np.uint8)
-    path = np.array([true_pose(i)[:3, 3] for i in range(frames) if i != LOST])
-    keyframes = path[::3]
-    links = np.stack([keyframes[:-1], keyframes[1:]], axis=1)
+    shown = tuple(i for i in range(frames) if i != LOST)
+    poses = np.array([true_pose(i) for i in shown])
+    keyframes = tuple(i for i in shown if i % 3 == 0)
+    T_keyframes = np.array([true_pose(i) for i in keyframes])
+    links = np.stack([T_keyframes[:-1, :3, 3], T_keyframes[1:, :3, 3]], axis=1)
     return MapView(
         PointMap(points, colours, np.zeros(2000, np.int32), np.zeros_like(points)),
-        rng.integers(0, 3, 2000).astype(np.uint16), keyframes, links, links[:1], path,
+        rng.integers(0, 3, 2000).astype(np.uint16), keyframes, T_keyframes, links, links[:1],
+        poses[:, :3, 3], shown, tuple(tracking_of(i).state for i in shown),
     )  # fmt: skip
 
 
@@ -81,6 +89,17 @@ def graph_of(n: int) -> SemanticGraph:
     )  # fmt: skip
     edges = tuple(GraphEdge(i, i + 1, 0.6, EdgeKind.PATH) for i in range(n - 1))
     return SemanticGraph(LABELS, nodes, edges)
+
+
+def with_rooms(graph: SemanticGraph) -> SemanticGraph:
+    """Two rooms of 3 x 4 m side by side, a door of 0.9 m in the wall x = 3 between them."""
+    square = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0], [0.0, 4.0]])
+    extents = tuple(
+        Extent(f"{LABELS.names[i]}1", LABELS.names[i], i, 0.9, outline, 12.0, outline.mean(axis=0))
+        for i, outline in ((1, square), (2, square + np.array([3.0, 0.0])))
+    )
+    door = Doorway(("kitchen1", "office1"), np.array([3.0, 2.0]), 0.9)
+    return replace(graph, extents=extents, doorways=(door,), T_map_world=T_MAP_WORLD)
 
 
 @dataclass
@@ -120,6 +139,7 @@ def record(path: Path, settings: ViewerSettings | None = None) -> None:
         if i % 3 == 0:
             viewer.show_graph(i, graph_of(i // 3 + 1))
     viewer.show_map(N_FRAMES - 1, lambda: map_of(N_FRAMES))
+    viewer.show_graph(N_FRAMES - 1, with_rooms(graph_of(4)))
     viewer.close()
 
 
@@ -147,10 +167,10 @@ def test_everything_shown_is_there(recorded: Recorded) -> None:
         "camera/image/features/plain", "camera/depth", "camera/depth/image", "map/colour",
         "map/labels", "map/above", "trajectory/estimate", "trajectory/recent", "trajectory/truth",
         "keyframes", "pose_graph/links", "pose_graph/loops", "graph/nodes", "graph/edges",
-        "graph/places",
+        "graph/places", "graph/rooms", "graph/doors",
     }  # fmt: skip
     others = {
-        "graph/nodes", "graph/places", "plots/inliers", "plots/score", "timeline/label",
+        "graph", "plots/inliers", "plots/score", "timeline/label",
         "timeline/tracking", "events", "status",
     }  # fmt: skip
     wanted = {f"/world/{name}" for name in world} | {f"/{name}" for name in others} | {"/world"}
@@ -211,12 +231,104 @@ def test_states_are_told_and_coloured(recorded: Recorded) -> None:
 
 
 def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
-    last = recorded.values("/graph/nodes", "GraphNodes:node_ids")
-    assert last[9] == ["0", "1", "2", "3"]
-    assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
+    ids = recorded.values("/graph", "GraphNodes:node_ids")
+    assert ids[9] == ["0", "1", "2", "3"]
+    assert recorded.values("/graph", "GraphNodes:labels")[9] == ["kitchen1", "•", "office1", "•"]
     assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
     nodes = recorded.values("/world/graph/nodes", "Points3D:labels")[9]
     assert nodes == ["kitchen1", "kitchen1", "office1", "office1"]
+
+
+def test_the_plan_lies_across_and_keeps_its_distances(recorded: Recorded) -> None:
+    plan = np.array(recorded.values("/graph", "GraphNodes:positions")[9])
+    assert np.ptp(plan[:, 0]) >= np.ptp(plan[:, 1])
+    steps = np.linalg.norm(np.diff(plan, axis=0), axis=1)
+    true = np.diff([true_pose(i * 3)[:3, 3] for i in range(4)], axis=0)
+    on_floor = np.linalg.norm(true, axis=1)
+    assert np.allclose(steps / on_floor, (steps / on_floor)[0], rtol=0.05)
+
+
+def test_rooms_are_outlined_on_the_floor_with_their_doors(recorded: Recorded) -> None:
+    last = N_FRAMES - 1
+    rooms = recorded.values("/world/graph/rooms", "LineStrips3D:strips")[last]
+    outlines = [transform(T_MAP_WORLD, np.array(room)) for room in rooms]
+    assert [len(outline) for outline in outlines] == [5, 5]
+    assert np.allclose(outlines[1].max(axis=0)[:2], (6, 4), atol=1e-5)
+    assert all((np.abs(outline[:, 2]) < 0.05).all() for outline in outlines)
+    labels = recorded.values("/world/graph/rooms", "LineStrips3D:labels")[last]
+    assert labels == ["kitchen1: 12.0 m²", "office1: 12.0 m²"]
+    (strip,) = recorded.values("/world/graph/doors", "LineStrips3D:strips")[last]
+    door = transform(T_MAP_WORLD, np.array(strip))
+    assert np.allclose(door[:, 0], 3.0, atol=1e-5)
+    assert (door[:, 1].min(), door[:, 1].max()) == pytest.approx((1.55, 2.45), abs=1e-5)
+    assert (door[:, 2].min(), door[:, 2].max()) == pytest.approx((0.0, 2.0), abs=1e-5)
+
+
+def test_keyframes_stand_where_they_are_with_their_pictures(recorded: Recorded) -> None:
+    pictures = {name for name in recorded.rows if name.startswith("/world/keyframes/")}
+    assert pictures == {"/world/keyframes/0", "/world/keyframes/9"}  # 2 m apart, 1.5 at least
+    for keyframe, shown_at in ((0, 0), (9, 9)):
+        entity = f"/world/keyframes/{keyframe}"
+        blobs = recorded.values(entity, "EncodedImage:blob")
+        assert list(blobs) == [shown_at]
+        encoded = np.array(blobs[shown_at][0], dtype=np.uint8)
+        assert cv2.imdecode(encoded, cv2.IMREAD_COLOR).shape == (144, 192, 3)
+        translation = recorded.values(entity, "Transform3D:translation")[shown_at][0]
+        np.testing.assert_allclose(translation, true_pose(keyframe)[:3, 3], atol=1e-6)
+
+
+def test_a_picture_moves_with_its_keyframe_and_is_not_drawn_twice(tmp_path: Path) -> None:
+    viewer = RerunViewer(tmp_path / "moved.rrd")
+    viewer.start(SessionView("moved", N_FRAMES, CAMERA, LABELS, None))
+    viewer.show_frame(frame_of(0), tracking_of(0))
+    before = map_of(1)
+    for i, shift in enumerate((0.0, 0.001, 0.5)):
+        T = before.T_world_keyframe.copy()
+        T[:, 0, 3] += shift
+        viewer.show_map(i, lambda T=T: replace(before, T_world_keyframe=T))
+    viewer.close()
+    recorded = Recorded.read(tmp_path / "moved.rrd")
+    translations = recorded.values("/world/keyframes/0", "Transform3D:translation")
+    assert {i: t[0][0] for i, t in translations.items()} == {0: 0.0, 2: 0.5}
+    assert list(recorded.values("/world/keyframes/0", "EncodedImage:blob")) == [0]
+
+
+def test_a_label_is_told_of_its_own_frame(recorded: Recorded) -> None:
+    words = recorded.values("/status", "TextDocument:text")
+    assert words[4][0].startswith("# kitchen · 0.56\n\nframe 5 of 12 · **ok** · 24 inliers")
+    assert words[6][0].startswith("# office · 0.58")
+    assert N_FRAMES - 1 not in words  # its label has not come
+
+
+def test_poses_in_a_submap_are_not_drawn_in_the_world(tmp_path: Path) -> None:
+    viewer = RerunViewer(tmp_path / "apart.rrd")
+    viewer.start(SessionView("apart", N_FRAMES, CAMERA, LABELS, None))
+    for i in range(4):
+        tracking = tracking_of(i)
+        viewer.show_frame(
+            frame_of(i), replace(tracking, T_world_camera=None) if i > 1 else tracking
+        )
+        viewer.show_label(i, 1, "kitchen", 0.5)
+    viewer.close()
+    recorded = Recorded.read(tmp_path / "apart.rrd")
+    assert sorted(recorded.values("/world/camera", "Transform3D:translation")) == [0, 1]
+    assert sorted(recorded.values("/world/trajectory/recent", "LineStrips3D:strips")) == [0, 1]
+    states = recorded.values("/timeline/tracking", "StateChange:state")
+    assert states == {0: ["ok"], 2: ["sub-map"]}
+    assert "**sub-map**" in recorded.values("/status", "TextDocument:text")[3][0]
+
+
+def test_without_labels_nothing_is_said_of_them(tmp_path: Path) -> None:
+    viewer = RerunViewer(tmp_path / "plain.rrd")
+    viewer.start(SessionView("plain", 1, CAMERA, LabelSpace(), None))
+    viewer.show_frame(frame_of(0), tracking_of(0))
+    viewer.show_label(0, 0, "unknown", 0.0)
+    viewer.close()
+    recorded = Recorded.read(tmp_path / "plain.rrd")
+    assert "/timeline/label" not in recorded.rows
+    (words,) = recorded.values("/status", "TextDocument:text")[0]
+    assert "places not labelled" in words
+    assert "unknown" not in words
 
 
 def test_nodes_of_unknown_place_have_no_name() -> None:
@@ -228,6 +340,7 @@ def test_nodes_of_unknown_place_have_no_name() -> None:
 def test_it_stays_small(recording: Path) -> None:
     points = 4 * 2000  # three maps, the last of them once more by close()
     bound = BOUND_FIXED + N_FRAMES * BOUND_A_FRAME + points * BOUND_A_POINT
+    bound += 2 * BOUND_A_PICTURE
     assert recording.stat().st_size < bound
 
 
@@ -254,10 +367,12 @@ def test_a_run_without_a_single_pose_can_be_closed(tmp_path: Path) -> None:
     nothing, none = np.empty((0, 3)), np.empty((0, 3), np.float32)
     points = PointMap(none, none.astype(np.uint8), np.empty(0, np.int32), none)
     ends = np.empty((0, 2, 3))
-    empty = MapView(points, np.empty(0, np.uint16), nothing, ends, ends, nothing)
+    none_yet = (), np.empty((0, 4, 4)), ends, ends, nothing, (), ()
+    empty = MapView(points, np.empty(0, np.uint16), *none_yet)
     viewer.show_frame(frame_of(LOST), tracking_of(LOST))
     viewer.show_map(0, lambda: empty)
     viewer.show_graph(0, SemanticGraph(LabelSpace(), (), ()))
+    viewer.show_label(LOST, 0, "unknown", 0.0)
     viewer.close()
     assert "/status" in Recorded.read(tmp_path / "empty.rrd").rows
 

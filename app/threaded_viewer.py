@@ -1,0 +1,73 @@
+"""A viewer that works beside the run."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from app.viewer import MapView, SessionView, Viewer
+from datasets.frame import Frame
+from semantics.graph import SemanticGraph
+from slam.tracking import Tracking
+
+# What may wait to be shown. Each frame among it takes a few megabytes.
+_WAITING = 32
+
+
+class ThreadedViewer:
+    """Hands all that it is told to another viewer, in order, in a thread of its own.
+
+    Only drawing the map, which asks the run for it, is done in the caller's thread. Where the
+    other viewer falls behind, the run waits. What goes wrong in the thread is raised by the next
+    call, and by `close` at the latest.
+
+    Parameters
+    ----------
+    viewer : Viewer
+        Is used from the thread only, but for `start`.
+    """
+
+    def __init__(self, viewer: Viewer) -> None:
+        self._viewer = viewer
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="viewer")
+        self._waiting: deque[Future[None]] = deque()
+
+    def start(self, session: SessionView) -> None:
+        """Start the other viewer and wait until it stands."""
+        self._pool.submit(self._viewer.start, session).result()
+
+    def show_frame(self, frame: Frame, tracking: Tracking) -> None:
+        """Hand on a frame."""
+        self._later(lambda: self._viewer.show_frame(frame, tracking))
+
+    def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
+        """Hand on a frame's label."""
+        self._later(lambda: self._viewer.show_label(frame, label_id, label, score))
+
+    def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
+        """Draw the map as it is now, and hand it on."""
+        view = draw()
+        self._later(lambda: self._viewer.show_map(frame, lambda: view))
+
+    def show_graph(self, frame: int, graph: SemanticGraph) -> None:
+        """Hand on the topological graph."""
+        self._later(lambda: self._viewer.show_graph(frame, graph))
+
+    def log(self, frame: int, text: str) -> None:
+        """Hand on an event."""
+        self._later(lambda: self._viewer.log(frame, text))
+
+    def close(self) -> None:
+        """Wait for all that was handed on, and close the other viewer."""
+        self._waiting.append(self._pool.submit(self._viewer.close))
+        try:
+            while self._waiting:
+                self._waiting.popleft().result()
+        finally:
+            self._pool.shutdown()
+
+    def _later(self, work: Callable[[], None]) -> None:
+        while self._waiting and (len(self._waiting) >= _WAITING or self._waiting[0].done()):
+            self._waiting.popleft().result()
+        self._waiting.append(self._pool.submit(work))
