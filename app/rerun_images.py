@@ -36,16 +36,6 @@ def thinned(intrinsics: Intrinsics, step: int) -> Intrinsics:
     )  # fmt: skip
 
 
-def resized(intrinsics: Intrinsics, width: int) -> Intrinsics:
-    """Return the camera of an image of another width, but of the same shape."""
-    scale = width / intrinsics.width
-    return Intrinsics(
-        width, max(1, round(intrinsics.height * scale)),
-        intrinsics.fx * scale, intrinsics.fy * scale,
-        (intrinsics.cx + 0.5) * scale - 0.5, (intrinsics.cy + 0.5) * scale - 0.5,
-    )  # fmt: skip
-
-
 def has_depth(frame: Frame, pixels: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Tell which pixels (N, 2) have a depth reading (N,)."""
     columns, rows = np.rint(pixels).astype(np.intp).T

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
 from app.viewer import MapView
-from datasets.camera import Intrinsics
+from datasets.frame import Frame
 
 FloatArray = NDArray[np.float64]
-# Of the picture's plane from the camera.
-_DISTANCE_M = 0.3
-# Of the lines around it: thin and dim, as the path is to be seen through them. Points are negative.
-_FRAME_COLOUR, _FRAME_POINTS = (90, 94, 104), -0.5
+# Of the picture's plane from the camera; and how many pixels wide it is.
+_DISTANCE_M, _WIDTH = 0.3, 128
 # A picture is set anew where its keyframe has moved by this much.
 _MOVED_M = 0.01
 
@@ -31,12 +30,12 @@ class KeyframePictures:
 
     def __init__(self, spacing_m: float, turn_deg: float) -> None:
         self._spacing_m, self._cos_turn = spacing_m, float(np.cos(np.radians(turn_deg)))
-        self._pictures: dict[int, tuple[bytes, Intrinsics]] = {}
+        self._pictures: dict[int, rr.Mesh3D] = {}
         self._drawn: dict[int, FloatArray] = {}
 
-    def keep(self, keyframe: int, jpeg: bytes, intrinsics: Intrinsics) -> None:
-        """Take in a keyframe's small picture and the camera that it is of."""
-        self._pictures[keyframe] = jpeg, intrinsics
+    def keep(self, keyframe: int, frame: Frame) -> None:
+        """Take in what a keyframe saw."""
+        self._pictures[keyframe] = _picture(frame)
 
     def draw(self, recording: rr.RecordingStream, view: MapView) -> None:
         """Draw those that are new in the map, and move along those that it has moved."""
@@ -46,7 +45,7 @@ class KeyframePictures:
                 picture = self._pictures.pop(keyframe)
                 if self._is_apart(T):
                     self._put(recording, keyframe, T)
-                    self._show(recording, keyframe, *picture)
+                    recording.log(f"world/keyframes/{keyframe}", picture)
             elif before is not None and np.abs(T[:3] - before[:3]).max() > _MOVED_M:
                 self._put(recording, keyframe, T)
 
@@ -62,14 +61,19 @@ class KeyframePictures:
         pose = rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3])
         recording.log(f"world/keyframes/{keyframe}", pose)
 
-    @staticmethod
-    def _show(
-        recording: rr.RecordingStream, keyframe: int, jpeg: bytes, camera: Intrinsics
-    ) -> None:
-        pinhole = rr.Pinhole(
-            image_from_camera=camera.K, resolution=[camera.width, camera.height],
-            camera_xyz=rr.ViewCoordinates.RDF, image_plane_distance=_DISTANCE_M,
-            color=_FRAME_COLOUR, line_width=_FRAME_POINTS,
-        )  # fmt: skip
-        image = rr.EncodedImage(contents=jpeg, media_type="image/jpeg")
-        recording.log(f"world/keyframes/{keyframe}", pinhole, image)
+
+def _picture(frame: Frame) -> rr.Mesh3D:
+    """Return a frame's small image as a plane that fills the camera's view.
+
+    Not as an image in a camera: Rerun complains of those at times before they are there.
+    """
+    height = max(1, round(frame.colour.shape[0] * _WIDTH / frame.colour.shape[1]))
+    small = cv2.resize(frame.colour, (_WIDTH, height), interpolation=cv2.INTER_AREA)
+    camera = frame.intrinsics
+    right, bottom = camera.width - 0.5, camera.height - 0.5
+    pixels = np.array([(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)])
+    return rr.Mesh3D(
+        vertex_positions=camera.backproject(pixels, np.full(4, _DISTANCE_M)),
+        vertex_texcoords=[(0, 0), (1, 0), (1, 1), (0, 1)],
+        triangle_indices=[(0, 2, 1), (0, 3, 2)], albedo_texture=small,
+    )  # fmt: skip

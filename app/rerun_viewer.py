@@ -21,7 +21,6 @@ from app.rerun_keyframes import KeyframePictures
 from app.rerun_scene import Pose
 from app.rerun_settings import ViewerSettings
 from app.rerun_sinks import open_sinks
-from app.thumbnails import WIDTH, encode_thumbnail
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
@@ -100,8 +99,7 @@ class RerunViewer:
         if tracking.T_world_camera is not None:
             self._show_pose(Pose(tracking.index, tracking.state, tracking.T_world_camera))
         if tracking.is_keyframe and tracking.anchor is not None:
-            camera = rerun_images.resized(frame.intrinsics, WIDTH)
-            self._pictures.keep(tracking.anchor.keyframe, encode_thumbnail(frame.colour), camera)
+            self._pictures.keep(tracking.anchor.keyframe, frame)
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
         """Show a frame's label, which is known a few frames after the frame."""

@@ -33,8 +33,8 @@ LABELS = LabelSpace.of(["kitchen", "office"])
 T_MAP_WORLD = pose(Rotation.from_euler("XZ", [-90, 30], degrees=True).as_matrix(), [1, 2, 1.5])
 # Bytes that a recording may take: once, for each frame of 64 x 48, for each point of each map.
 BOUND_FIXED, BOUND_A_FRAME, BOUND_A_POINT = 128 * 1024, 10 * 1024, 32
-# And for each picture of a keyframe: 192 x 144, here of noise.
-BOUND_A_PICTURE = 24 * 1024
+# And for each picture of a keyframe: 128 x 96 in three colours.
+BOUND_A_PICTURE = 40 * 1024
 
 
 def frame_of(index: int) -> Frame:
@@ -269,10 +269,14 @@ def test_keyframes_stand_where_they_are_with_their_pictures(recorded: Recorded) 
     assert pictures == {"/world/keyframes/0", "/world/keyframes/9"}  # 2 m apart, 1.5 at least
     for keyframe, shown_at in ((0, 0), (9, 9)):
         entity = f"/world/keyframes/{keyframe}"
-        blobs = recorded.values(entity, "EncodedImage:blob")
-        assert list(blobs) == [shown_at]
-        encoded = np.array(blobs[shown_at][0], dtype=np.uint8)
-        assert cv2.imdecode(encoded, cv2.IMREAD_COLOR).shape == (144, 192, 3)
+        buffers = recorded.values(entity, "Mesh3D:albedo_texture_buffer")
+        assert list(buffers) == [shown_at]
+        picture = np.array(buffers[shown_at][0], dtype=np.uint8).reshape(96, 128, 3)
+        wanted = cv2.resize(frame_of(keyframe).colour, (128, 96), interpolation=cv2.INTER_AREA)
+        np.testing.assert_array_equal(picture, wanted)
+        corners = np.array(recorded.values(entity, "Mesh3D:vertex_positions")[shown_at])
+        outline = [(-0.5, -0.5), (63.5, -0.5), (63.5, 47.5), (-0.5, 47.5)]
+        np.testing.assert_allclose(CAMERA.project(corners), outline, atol=1e-4)
         translation = recorded.values(entity, "Transform3D:translation")[shown_at][0]
         np.testing.assert_allclose(translation, true_pose(keyframe)[:3, 3], atol=1e-6)
 
@@ -290,7 +294,7 @@ def test_a_picture_moves_with_its_keyframe_and_is_not_drawn_twice(tmp_path: Path
     recorded = Recorded.read(tmp_path / "moved.rrd")
     translations = recorded.values("/world/keyframes/0", "Transform3D:translation")
     assert {i: t[0][0] for i, t in translations.items()} == {0: 0.0, 2: 0.5}
-    assert list(recorded.values("/world/keyframes/0", "EncodedImage:blob")) == [0]
+    assert list(recorded.values("/world/keyframes/0", "Mesh3D:vertex_positions")) == [0]
 
 
 def test_a_label_is_told_of_its_own_frame(recorded: Recorded) -> None:
