@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from datasets import poses
 from slam.estimate import Estimate, inverted
 from slam.flow import FlowTracker, Template
 from slam.local_map import LocalMap
+from slam.prediction import MotionModel
 from slam.textureless import DepthOdometry
 from slam.tracker import Located, Tracker
 from slam.tracking import Anchor
@@ -26,6 +28,8 @@ class Localiser:
     ----------
     flow, tracker, depth : FlowTracker, Tracker, DepthOdometry
         The three means, in the order in which they are tried.
+    motion : MotionModel
+        What to expect, and what to hold on to where a view leaves something open.
     T_world_keyframe : callable
         Returns the poses known now, by keyframe id.
     around : callable
@@ -37,17 +41,17 @@ class Localiser:
         flow: FlowTracker,
         tracker: Tracker,
         depth: DepthOdometry,
+        motion: MotionModel,
         T_world_keyframe: Callable[[], Mapping[int, FloatArray]],
         around: Callable[[int], LocalMap],
     ) -> None:
-        self.flow, self.tracker, self.depth = flow, tracker, depth
+        self.flow, self.tracker, self.depth, self.motion = flow, tracker, depth, motion
         self._T_world_keyframe, self._around = T_world_keyframe, around
         self._template: Template | None = None
         self._template_covariance: FloatArray = np.zeros((6, 6))
         self._last: Anchor | None = None
         self._last_view: View | None = None
         self._covariance: FloatArray = np.zeros((6, 6))
-        self._velocity: FloatArray = np.eye(4)
         self._is_broken = False
 
     def locate(self, view: View) -> Estimate | None:
@@ -56,9 +60,12 @@ class Localiser:
         A view without any depth can be followed by its corners, but it is not worth more effort:
         nothing could be mapped from it.
         """
-        if not view.has_depth:
-            return self._by_flow(view)
-        return self._by_flow(view) or self._by_features(view) or self._by_depth(view)
+        seen = self._by_flow(view)
+        if seen is None and view.has_depth:
+            seen = self._by_features(view)
+        if seen is not None:
+            return self._held(view, seen)
+        return self._by_depth(view) if view.has_depth else None
 
     def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
         """Take a view's pose over as the present one.
@@ -70,10 +77,9 @@ class Localiser:
         estimate : Estimate or None
             What it was found by; None if it is where it is by definition: a keyframe.
         """
-        self._velocity = np.eye(4)
         if self._last is not None and not self._is_broken:
             T_camera_world = poses.inverse(self._pose_of(anchor))
-            self._velocity = T_camera_world @ self._pose_of(self._last)
+            self.motion.moved(T_camera_world @ self._pose_of(self._last), self._since(view))
         self._is_broken = False
         self._covariance = np.zeros((6, 6)) if estimate is None else estimate.covariance
         if estimate is None or estimate.method != "depth":
@@ -94,24 +100,45 @@ class Localiser:
 
     def stand_still(self) -> None:
         """Predict no motion: what it was is not known any more."""
-        self._velocity, self._is_broken = np.eye(4), True
+        self.motion.stand_still()
+        self._is_broken = True
 
     def _pose_of(self, anchor: Anchor) -> FloatArray:
         return np.asarray(self._T_world_keyframe()[anchor.keyframe] @ anchor.T_keyframe_camera)
 
-    def _prediction(self, target: Anchor) -> FloatArray:
+    def _since(self, view: View) -> float:
+        """Return the seconds since the last view; 0 before there is one."""
+        return (
+            0.0 if self._last_view is None else view.frame.stamp_s - self._last_view.frame.stamp_s
+        )
+
+    def _prediction(self, view: View, target: Anchor) -> FloatArray:
         """Return T_camera_target if the camera goes on as it did."""
         assert self._last is not None
-        T = self._velocity @ poses.inverse(self._pose_of(self._last)) @ self._pose_of(target)
+        T = (
+            self.motion.step(self._since(view))
+            @ poses.inverse(self._pose_of(self._last))
+            @ self._pose_of(target)
+        )
         # A prediction feeds the next one: left alone, rounding errors double with each frame.
         return poses.orthonormal(T)
+
+    def _held(self, view: View, estimate: Estimate) -> Estimate:
+        """Take what a view leaves open from the motion so far."""
+        if self._is_broken:
+            return estimate
+        T = self.motion.hold(
+            estimate.T_camera_reference, estimate.information,
+            self._prediction(view, Anchor(estimate.reference, np.eye(4))), self._since(view),
+        )  # fmt: skip
+        return replace(estimate, T_camera_reference=T)
 
     def _by_flow(self, view: View) -> Estimate | None:
         """Follow the template's corners."""
         template = self._template
         if template is None or not self.flow.settings.enabled:
             return None
-        followed = self.flow.track(view, template, self._prediction(template.anchor))
+        followed = self.flow.track(view, template, self._prediction(view, template.anchor))
         if followed is None:
             return None
         motion, seen = followed
@@ -129,7 +156,7 @@ class Localiser:
         assert self._last is not None
         reference = self._last.keyframe
         located = self.tracker.track(
-            view, self._around(reference), self._prediction(Anchor(reference, np.eye(4)))
+            view, self._around(reference), self._prediction(view, Anchor(reference, np.eye(4)))
         )
         return None if located is None else estimate_of(located, view)
 
@@ -141,7 +168,7 @@ class Localiser:
             self.depth.remember(self._last_view.frame)
         step = self.depth.register(
             view.frame,
-            self._velocity,
+            self.motion.step(self._since(view)),
             is_textured=int(view.has_point.sum()) >= self.depth.settings.texture,
         )
         if step is None:

@@ -29,6 +29,7 @@ from slam.motion import MotionSettings
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings
 from slam.pose_graph import Link, PoseGraph, PoseGraphSettings
+from slam.prediction import MotionModel, PredictionSettings
 from slam.space import SpaceSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
 from slam.tracker import Tracker, TrackerSettings
@@ -64,6 +65,7 @@ class SlamSettings(Settings):
     features: FeatureSettings = FeatureSettings()
     noise: SensorNoise = SensorNoise()
     motion: MotionSettings = MotionSettings()
+    prediction: PredictionSettings = PredictionSettings()
     flow: FlowSettings = FlowSettings()
     tracker: TrackerSettings = TrackerSettings()
     keyframes: KeyframeSettings = KeyframeSettings()
@@ -114,6 +116,7 @@ class Slam:
         )
         self._localiser = Localiser(
             FlowTracker(settings.flow, settings.noise), self._tracker, depth,
+            MotionModel(settings.prediction),
             lambda: self._backend.poses, self._around,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
