@@ -21,6 +21,8 @@ FloatArray = NDArray[np.float64]
 # For a page as wide as a phone: a figure of this width with this type is legible on one.
 WIDTH_INCHES = 5.0
 _LARGE, _SMALL = 9.0, 5.0
+# Of a bold letter's width, in heights, with some room on both sides of a name.
+_EM = 0.8
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
 # What is occupied this near to a room's outline is its wall, further in it is furniture.
@@ -128,7 +130,7 @@ def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> No
     for extent in graph.extents:
         name = extent.name.replace("_", " ")
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
-        size = float(np.clip(width / (0.62 * max(len(name), 6)), _SMALL, _LARGE))
+        size = float(np.clip(width / (_EM * max(len(name), 6)), _SMALL, _LARGE))
         x, y = extent.centre_map
         axes.text(
             x, y, f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import tomllib
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -27,12 +28,19 @@ from datasets.sequence import Sequence as FrameSequence
 from datasets.trajectory import Trajectory
 from semantics.graph import SemanticGraph
 from semantics.graph_io import read_graph_json
+from semantics.labels import UNKNOWN
 from slam.errors import SlamError
 from slam.evaluation import compare
 
 # Of a place, pictures shown at most: a strip of them fills a wide page.
 _PICTURES = 8
-_PARALLEL = ("read", "features")
+# What the stages of a run are called. The first two run in a thread, ahead of the others.
+_STAGES = {
+    "read": "reading images (beside)", "features": "features (beside)", "track": "tracking",
+    "view": "showing and recording", "label": "labelling", "graph": "graph", "map": "final map",
+    "survey": "floor and free space", "extents": "rooms and doorways", "write": "writing files",
+    "close": "ending the recording",
+}  # fmt: skip
 _NONE = "\N{EN DASH}"
 
 
@@ -97,6 +105,7 @@ def _head(folder: RunFolder, graph: SemanticGraph, metrics: Mapping[str, Any]) -
         figures.append((f"{metrics['place_accuracy']:.0%}", "of nodes labelled rightly"))
     return {
         "name": name,
+        "found": found_words(graph, metrics),
         "summary": f"{metrics['sequence']}: {metrics['frames']} frames, "
         f"{metrics['keyframes']} keyframes, {metrics['map_points']:,} map points, "
         f"{metrics['graph_nodes']} graph nodes; mapped in {metrics['seconds_total']:.0f} s.",
@@ -106,6 +115,27 @@ def _head(folder: RunFolder, graph: SemanticGraph, metrics: Mapping[str, Any]) -
         "plan_words": ", ".join(f"{e.name} {e.area_m2:.1f} m²" for e in graph.extents)
         or "no rooms found",
     }
+
+
+def found_words(graph: SemanticGraph, metrics: Mapping[str, Any]) -> str:
+    """Return in a sentence what a run found; nothing if that is no place."""
+    kinds = Counter(e.label.replace("_", " ") for e in graph.extents if e.label != UNKNOWN)
+    unnamed = len(graph.extents) - kinds.total()
+    parts = [_counted(count, kind) for kind, count in kinds.most_common()]
+    if unnamed:
+        parts.append(f"{_counted(unnamed, 'room')} without a label")
+    if not parts:
+        return ""
+    doors = len(graph.doorways)
+    return f"A walk of {metrics['path_length_m']:.0f} m through {', '.join(parts)}" + (
+        f", joined by {_counted(doors, 'doorway')}." if doors else "."
+    )
+
+
+def _counted(count: int, kind: str) -> str:
+    if count > 1:
+        return f"{count} {kind}s"
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
 
 
 def _warnings(graph: SemanticGraph, metrics: Mapping[str, Any]) -> list[str]:
@@ -240,7 +270,7 @@ def _stages(metrics: Mapping[str, Any]) -> list[dict[str, str]]:
     seconds = max(float(metrics["seconds_total"]), 1e-3)
     return [
         {
-            "name": f"{name} (ahead)" if name in _PARALLEL else name,
+            "name": _STAGES.get(name, name),
             "median": f"{stage['median']:.1f}", "p95": f"{stage['p95']:.1f}",
             "total": f"{stage['total'] / 1000:.1f}",
             "percent": f"{min(100.0, stage['total'] / 10 / seconds):.1f}",

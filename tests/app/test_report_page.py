@@ -3,6 +3,7 @@
 import re
 import shutil
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import cv2
@@ -10,11 +11,14 @@ import numpy as np
 import pytest
 
 from app.errors import AppError
+from app.floor_lines import doorway_ends
 from app.report_evidence import place_reasons
-from app.report_page import write_report
+from app.report_page import found_words, write_report
 from app.run_folder import RunFolder
 from app.thumbnails import ThumbnailWriter, read_thumbnails
+from semantics.graph import Doorway, Extent, SemanticGraph
 from semantics.graph_io import read_graph_json
+from semantics.labels import LabelSpace
 from tests.app.command import roomgraph
 
 
@@ -74,6 +78,40 @@ def test_the_page_says_what_was_found(mapped):
         assert reason["chances"] in text
         assert reason["frames"] in text
     assert "[slam.features]" in text
+    assert f"A walk of {metrics['path_length_m']:.0f} m through " in text
+
+
+def test_what_was_found_is_a_sentence():
+    labels = LabelSpace.of(["office", "elevator_area"])
+    square = np.array([[0.0, 0], [1, 0], [1, 1]])
+    extents = tuple(
+        Extent(f"{label}{i}", label, 0, 0.9, square, 1.0, square[0])
+        for i, label in enumerate(["office", "elevator_area", "office", "unknown"])
+    )
+    door = Doorway(("a", "b"), np.zeros(2), None)
+    graph = SemanticGraph(labels, (), (), extents, (door, door))
+    assert found_words(graph, {"path_length_m": 12.4}) == (
+        "A walk of 12 m through 2 offices, an elevator area, a room without a label, "
+        "joined by 2 doorways."
+    )
+    assert found_words(replace(graph, extents=()), {"path_length_m": 1.0}) == ""
+
+
+def test_doors_lie_in_their_walls():
+    c, s = np.cos(0.4), np.sin(0.4)
+    turn = np.array([[c, s], [-s, c]])
+    square = np.array([[0.0, 0], [3, 0], [3, 4], [0, 4]])
+    extents = tuple(
+        Extent(name, name, 0, 1.0, outline @ turn, 12.0, np.zeros(2))
+        for name, outline in (("a", square), ("b", square + np.array([3.0, 0])), ("c", square * 9))
+    )
+    for at, along in (((3.0, 2.0), (0.0, 1.0)), ((1.5, 0.0), (1.0, 0.0))):
+        door = Doorway(("a", "b"), np.array(at) @ turn, 0.9)
+        ends = doorway_ends(SemanticGraph(LabelSpace(), (), (), extents, (door,)), door)
+        assert np.allclose(ends.mean(axis=0), door.position_map)
+        way = (ends[1] - ends[0]) @ turn.T
+        assert np.linalg.norm(way) == pytest.approx(0.9)
+        assert abs(way @ along) == pytest.approx(0.9, abs=0.01)
 
 
 def test_the_floor_plan_is_a_picture_and_a_drawing(mapped):
