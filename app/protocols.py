@@ -12,19 +12,13 @@ import numpy as np
 from app.console import Terminal
 from app.errors import AppError
 from app.protocol_data import (
-    LIGHT_STRIDE,
-    SEEDS,
-    STRIDE,
-    WORD_SEED,
     Collection,
     Describer,
-    Walk,
-    data_walks,
-    rendered_walks,
-    route_positions,
 )
 from app.protocol_report import ProtocolReport
 from app.protocol_route import FINISHED, FinishedRun, finished_run
+from app.protocol_sights import route_positions
+from app.protocol_walks import SEEDS, STRIDE, WORD_SEED, Walk, data_walks, rendered_walks
 from datasets.errors import RoomgraphError
 from semantics import trials
 from semantics.model import PlaceModel
@@ -33,6 +27,8 @@ from semantics.training import Preset
 from semantics.trials import Bench, Trial
 
 PERMUTATIONS = 100
+# Across light, twice as many images: those learned from, and those halfway between.
+LIGHT_STRIDE = STRIDE // 2
 WORDS_NOTE = "The words are learned from images that are never tested: {}."
 
 
@@ -88,10 +84,12 @@ def run_protocol(
 def _recognition(m: Material) -> ProtocolReport:
     lights = len(set(m.bench.lights.tolist()))
     knows_doorways = lights > 1 and len(m.bench.doorway_m) > 0
-    total = trials.N_FOLDS * (lights + 1 + (lights > 1) + knows_doorways)
+    knows_sights = lights > 1 and len(m.bench.shown) > 0
+    total = trials.N_FOLDS * (lights + 1 + (lights > 1) + knows_doorways + knows_sights)
     found = m.watched("Recognition", trials.recognition(m.bench, m.seed), total)
     last = found[-1].row
-    rows = tuple(dict.fromkeys(t.row for t in found if t.row not in (last, trials.AWAY)))
+    aside = (last, trials.AWAY, trials.SHOWN)
+    rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
     notes = [
         "Ten folds. In each light a visit to a room is held out whole; fused, a room is held out "
         "in all lights at once. A class with a single visit is cut into blocks of its frames.",
@@ -102,7 +100,17 @@ def _recognition(m: Material) -> ProtocolReport:
             f"The row '{trials.AWAY}' is a part of the row 'fused': an image bears the label of "
             "where it was taken, and near a doorway it shows the next room. Not counted either."
         )
-    return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows)
+    figures = {}
+    if knows_sights:
+        hardly = float(np.mean(m.bench.own_share < trials.HARDLY))
+        figures = {"hardly_show_their_room": round(hardly, 4)}
+        notes.append(
+            f"Of the images, {hardly:.1%} show nothing of the room they were taken in, as the "
+            "depth and the floor plan tell: there the label cannot be seen. In the row "
+            f"'{trials.SHOWN}' an image bears the label of the room that most of it shows, and "
+            "that room is held out. Not counted either."
+        )
+    return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows, figures=figures)
 
 
 def _light(m: Material) -> ProtocolReport:
@@ -167,7 +175,8 @@ def _route(m: Material) -> ProtocolReport:
         model = _model_without(m, walk.building)
         found += route_trials(
             model, m.describer.predictions(model, images),
-            [image.example.label for image in images], route_positions(images),
+            [image.example.label for image in images],
+            route_positions([image.example for image in images]),
         )  # fmt: skip
         try:
             runs.append(finished_run(model, Path(walk.examples[0].session), m.seed, m.terminal))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from app.console import Terminal
-from app.protocol_data import STRIDE, WORD_SEED, data_walks, rendered_walks
+from app.protocol_walks import STRIDE, WORD_SEED, data_walks, rendered_walks
 from datasets.files import replacing, write_text
 from semantics.extraction import describe_images
 from semantics.neural_gas import NeuralGas

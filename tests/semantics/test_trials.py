@@ -129,3 +129,28 @@ def test_per_class_is_over_all_trials():
     assert trials.per_class([a, b]) == {"k": 0.75, "o": 1.0}
     assert a.accuracy == pytest.approx(2 / 3)
     assert a.mean_per_class == 0.75
+
+
+def test_images_are_also_judged_by_what_they_show(bench, monkeypatch):
+    """Every fifth image shows another kind of room than it was taken in; that room is held out."""
+    shown, rooms = bench.labels.copy(), bench.rooms.copy()
+    shown[::5], rooms[::5] = np.roll(bench.labels, 10)[::5], np.roll(bench.rooms, 10)[::5]
+    vectors = bench.vectors.copy()
+    vectors[::5] = np.roll(bench.vectors, 10, axis=0)[::5]
+    misled = replace(bench, vectors=vectors, shown=shown, shown_rooms=rooms)
+    shared = set()
+    original = trials.run_trial
+
+    def watched(bench, row, train, test):
+        if row == trials.SHOWN:
+            shared.update(set(rooms[train]) & set(rooms[test]))
+        return original(bench, row, train, test)
+
+    monkeypatch.setattr(trials, "run_trial", watched)
+    found = list(trials.recognition(misled, 0))
+    right = {
+        row: np.mean([t.accuracy for t in found if t.row == row]) for row in ("fused", trials.SHOWN)
+    }
+    assert not shared
+    assert right[trials.SHOWN] > 0.9
+    assert right["fused"] < 0.85
