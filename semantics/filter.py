@@ -14,8 +14,6 @@ FloatArray = NDArray[np.float64]
 _LEAST = 1e-3
 # Looks from one spot count a little, so that a long stay says something in the end.
 _LEAST_WEIGHT = 0.1
-# Where nobody can say how far the camera went between two looks.
-_USUAL_STEP_M = 0.3
 
 
 class PlaceFilter:
@@ -44,33 +42,34 @@ class PlaceFilter:
         self.transitions = _without_staying(transitions)
         self.change_m, self.independent_m = change_m, independent_m
         self._belief: FloatArray | None = None
-        self._position: FloatArray | None = None
 
-    def advance(self, position: FloatArray | None, probabilities: FloatArray) -> FloatArray:
+    def advance(self, way_m: float, probabilities: FloatArray) -> FloatArray:
         """Take a look for good and return the belief (K,) after it.
 
         Parameters
         ----------
-        position : (3,) float64 or None
-            Where the look was taken, metres; None if nobody knows.
+        way_m : float
+            From the last look to this one, metres (see `Odometer`).
         probabilities : (K,) float64
             What the look alone says.
         """
-        way = _way(self._position, position)
-        (moves,), (seen,) = self._moves([way]), self._evidence(probabilities[None], [way])
+        (moves,), (seen,) = self._moves([way_m]), self._evidence(probabilities[None], [way_m])
         self._belief = self._step(self._belief, moves, seen)
-        self._position = position
         return self._belief
 
-    def smoothed(
-        self, positions: Sequence[FloatArray | None], probabilities: FloatArray
-    ) -> FloatArray:
+    def smoothed(self, ways_m: Sequence[float], probabilities: FloatArray) -> FloatArray:
         """Return the beliefs (N, K) at N looks, each given all of them and those taken for good.
 
         The forward-backward algorithm (Rabiner, 1989); the looks are not taken for good.
+
+        Parameters
+        ----------
+        ways_m : (N,) sequence of float
+            To each look from the one before it, metres.
+        probabilities : (N, K) float64
+            What each look alone says.
         """
-        ways = [_way(a, b) for a, b in zip([self._position, *positions], positions, strict=False)]
-        moves, evidence = self._moves(ways), self._evidence(probabilities, ways)
+        moves, evidence = self._moves(ways_m), self._evidence(probabilities, ways_m)
         beliefs, belief = np.empty(evidence.shape), self._belief
         for i, seen in enumerate(evidence):
             belief = beliefs[i] = self._step(belief, moves[i], seen)
@@ -121,7 +120,3 @@ def _without_staying(table: FloatArray) -> FloatArray:
         return np.ones((1, 1))
     moves = np.where(np.eye(len(table), dtype=bool), 0.0, table)
     return np.asarray(moves / np.maximum(moves.sum(axis=1, keepdims=True), 1e-12))
-
-
-def _way(a: FloatArray | None, b: FloatArray | None) -> float:
-    return _USUAL_STEP_M if a is None or b is None else float(np.linalg.norm(b - a))

@@ -14,6 +14,7 @@ from datasets.settings import Settings
 from semantics.filter import PlaceFilter
 from semantics.labels import UNKNOWN
 from semantics.model import PlaceModel, PlacePrediction
+from semantics.odometer import Odometer
 from slam.tracking import Tracking
 
 
@@ -83,11 +84,14 @@ class FrameLabel:
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """What a frame alone looks like; `order` counts the frames taken, looked at or not."""
+    """What a frame alone looks like.
+
+    `order` counts the frames taken, looked at or not; `way_m` leads here from the last look.
+    """
 
     order: int
     frame: int
-    position: NDArray[np.float64] | None
+    way_m: float
     prediction: PlacePrediction
 
 
@@ -95,8 +99,8 @@ class PlaceLabeller:
     """Labels frames by the frames around each: a hidden Markov model, or the paper's vote.
 
     The vote is that of section 3.3. The model knows how places follow each other and how far the
-    camera went between two looks, see `PlaceFilter`; it is right more often, and its score is a
-    probability that holds.
+    camera went between two looks, see `PlaceFilter` and, for frames without poses, `Odometer`; it
+    is right more often, and its score is a probability that holds.
 
     Not every frame need be looked at: those that come without features (nor an image, for a model
     that describes images itself) take the label that the frames around them vote for. Of the
@@ -121,6 +125,7 @@ class PlaceLabeller:
         self.model = model
         self.settings = settings
         self._filter = None if model is None else PlaceFilter(model.transitions, settings.change_m)
+        self._odometer = None if self._filter is None else Odometer(self._filter.independent_m)
         self._looks: list[_Look] = []
         self._waiting: deque[tuple[int, Tracking]] = deque()
         self._taken = 0
@@ -145,11 +150,10 @@ class PlaceLabeller:
 
     def take(self, tracking: Tracking, prediction: PlacePrediction | None) -> list[FrameLabel]:
         """Take the next frame with what it alone looks like, None if it was not looked at."""
-        if prediction is not None:
+        if prediction is not None and self._odometer is not None:
             T = tracking.T_world_camera
-            self._looks.append(
-                _Look(self._taken, tracking.index, None if T is None else T[:3, 3], prediction)
-            )
+            way_m = self._odometer.step(None if T is None else T[:3, 3], prediction.view)
+            self._looks.append(_Look(self._taken, tracking.index, way_m, prediction))
         self._waiting.append((self._taken, tracking))
         self._taken += 1
         return self._release()
@@ -185,7 +189,7 @@ class PlaceLabeller:
         if surplus > 0:
             if self._filter is not None:
                 for look in self._looks[:surplus]:
-                    self._filter.advance(look.position, look.prediction.probabilities[1:])
+                    self._filter.advance(look.way_m, look.prediction.probabilities[1:])
             del self._looks[:surplus]
 
     def _around(self, order: int) -> list[_Look]:
@@ -223,7 +227,7 @@ class PlaceLabeller:
         """Return the labels' probabilities at a frame, given all looks so far."""
         assert self._filter is not None
         beliefs = self._filter.smoothed(
-            [look.position for look in self._looks],
+            [look.way_m for look in self._looks],
             np.array([look.prediction.probabilities[1:] for look in self._looks]),
         )
         nearest = min(range(len(beliefs)), key=lambda i: abs(self._looks[i].order - order))

@@ -58,6 +58,9 @@ class PlacePrediction:
     words : tuple of (int, float)
         The visual words that spoke most for the label, and by how much of the margin over the
         mean of the other classes; the strongest first.
+    view : (L,) float or None
+        The whole image as one vector of unit length, to compare images by; None if there is
+        nothing in it.
     """
 
     label: str
@@ -67,6 +70,7 @@ class PlacePrediction:
     histogram: NDArray[np.float64]
     familiarity: float = 0.0
     words: tuple[tuple[int, float], ...] = ()
+    view: NDArray[Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,16 +162,17 @@ class PlaceModel:
         if vector is None:
             probabilities[0] = 1.0
             return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory)
+        view = memory if self.encoder is None else vector
         margins = self.classifier.coef_ @ vector + self.classifier.intercept_
         ids = self._ids_of_classes()
         probabilities[ids] = self.classifier.probabilities(margins[None])[0]
         familiarity = float(self.classifier.familiarity(margins[None])[0])
         if familiarity < self.reject_below:
-            return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory, familiarity)
+            return PlacePrediction(UNKNOWN, 0, 0.0, probabilities, memory, familiarity, view=view)
         label_id = ids[int(margins.argmax())]
         return PlacePrediction(
             self.labels.names[label_id], label_id, float(probabilities[label_id]),
-            probabilities, memory, familiarity, self._words(vector, int(margins.argmax())),
+            probabilities, memory, familiarity, self._words(vector, int(margins.argmax())), view,
         )  # fmt: skip
 
     def _words(self, vector: NDArray[Any], winner: int) -> tuple[tuple[int, float], ...]:

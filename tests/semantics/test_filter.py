@@ -16,10 +16,6 @@ def looks(kinds, sure=0.6):
     return np.array([[sure if k == i else other for i in range(3)] for k in kinds])
 
 
-def places(count, step=1.0):
-    return [np.array([i * step, 0.0, 0.0]) for i in range(count)]
-
-
 def test_transitions_are_those_walked():
     np.testing.assert_allclose(MOVES.sum(axis=1), 1)
     assert not np.diag(MOVES).any()
@@ -31,21 +27,21 @@ def test_transitions_are_those_walked():
 def test_the_filter_is_bayes_rule_by_hand():
     found = PlaceFilter(MOVES, change_m=4.0, independent_m=1.0)
     p = looks([0, 2])
-    found.advance(np.zeros(3), p[0])
-    # Nobody knows how far the first look is from the one before: 0.3 m of the independent 1 m.
+    found.advance(0.3, p[0])
+    # Less than the independent 1 m from the one before: it counts for less.
     prior = p[0] ** 0.3
     prior /= prior.sum()
     leave = 1 - np.exp(-2.0 / 4.0)
     ahead = prior @ ((1 - leave) * np.eye(3) + leave * MOVES)
     by_hand = ahead * p[1]
-    belief = found.advance(np.array([2.0, 0, 0]), p[1])
+    belief = found.advance(2.0, p[1])
     np.testing.assert_allclose(belief, by_hand / by_hand.sum(), rtol=1e-9)
 
 
 def test_smoothing_agrees_with_all_paths_counted():
     kinds = [0, 0, 2, 1, 1]
-    p, where = looks(kinds), places(5)
-    found = PlaceFilter(MOVES, change_m=4.0, independent_m=1.0).smoothed(where, p)
+    p, ways = looks(kinds), [0.3, 1.0, 1.0, 1.0, 1.0]
+    found = PlaceFilter(MOVES, change_m=4.0, independent_m=1.0).smoothed(ways, p)
     leave = 1 - np.exp(-1.0 / 4.0)
     move = (1 - leave) * np.eye(3) + leave * MOVES
     total = np.zeros((5, 3))
@@ -60,16 +56,19 @@ def test_smoothing_agrees_with_all_paths_counted():
 
 def test_a_lone_mistake_is_put_right_and_a_change_is_kept():
     kinds = [0, 0, 0, 2, 0, 0, 0, 1, 1, 1, 1]
-    found = PlaceFilter(MOVES, change_m=4.0).smoothed(places(11), looks(kinds))
+    found = PlaceFilter(MOVES, change_m=4.0).smoothed([1.0] * 11, looks(kinds))
     assert list(found.argmax(axis=1)) == [0] * 7 + [1] * 4
 
 
 def test_standing_still_says_nothing_new():
     found = PlaceFilter(MOVES, change_m=4.0)
+    once = found.advance(0.5, looks([2])[0])
+    for _ in range(9):
+        belief = found.advance(0.0, looks([2])[0])
+    apart = PlaceFilter(MOVES, change_m=4.0)
     for _ in range(10):
-        belief = found.advance(np.zeros(3), looks([2])[0])
-    once = PlaceFilter(MOVES, change_m=4.0).advance(np.zeros(3), looks([2])[0])
-    assert belief[2] < once[2] ** 0.2
+        sure = apart.advance(0.5, looks([2])[0])
+    assert once[2] < belief[2] < sure[2]
     assert belief[2] < 0.9
 
 

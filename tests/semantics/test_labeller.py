@@ -147,6 +147,22 @@ def test_the_filter_puts_a_lone_mistake_right(model):
     assert all(0 < f.score <= 1 for f in labels)
 
 
+def test_without_poses_a_change_is_found_as_soon_at_any_frame_rate(model):
+    """Thirty images a second of one view say no more than a few of them."""
+    late = {}
+    for rate in (1, 10):
+        words = [0] * 12 * rate + [1] * 12 * rate
+        items = [tracking(i, word=word) for i, word in enumerate(words)]
+        settings = {"method": "filter", "window": 9 * rate, "min_voters": 5}
+        settings["window"] += settings["window"] % 2 == 0
+        _, labels = labelled(model, items, **settings)
+        found = [f.label for f in labels]
+        late[rate] = found.index("kitchen") / rate - 12
+        assert set(found) == {"corridor", "kitchen"}
+    assert abs(late[1]) <= 1
+    assert abs(late[10]) <= 1
+
+
 def test_memory_stays_bounded(model):
     labeller = PlaceLabeller(model, LabellerSettings(window=7, min_voters=3))
     for i in range(300):
