@@ -61,7 +61,13 @@ def exponential(xi: FloatArray) -> FloatArray:
 
 def logarithm(T: FloatArray) -> FloatArray:
     """Return the step (6,) that `exponential` turns into `T` (4, 4)."""
-    return np.concatenate([Rotation.from_matrix(T[:3, :3]).as_rotvec(), T[:3, 3]])
+    sine, cosine = _sine_and_cosine(T)
+    length = float(np.linalg.norm(sine))
+    if cosine < 0 and length < 1e-3:
+        # Near half a turn the axis is not to be had from the sine.
+        return np.concatenate([Rotation.from_matrix(T[:3, :3]).as_rotvec(), T[:3, 3]])
+    scale = np.arctan2(length, cosine) / length if length > 0 else 1.0
+    return np.concatenate([scale * sine, T[:3, 3]])
 
 
 def adjoint(T: FloatArray) -> FloatArray:
@@ -75,7 +81,15 @@ def adjoint(T: FloatArray) -> FloatArray:
 
 def rotation_angle(T: FloatArray) -> float:
     """Return the angle of the rotation of `T` (4, 4), in radians, in [0, pi]."""
-    return float(Rotation.from_matrix(T[:3, :3]).magnitude())
+    sine, cosine = _sine_and_cosine(T)
+    return float(np.arctan2(np.linalg.norm(sine), cosine))
+
+
+def _sine_and_cosine(T: FloatArray) -> tuple[FloatArray, float]:
+    """Return the axis (3,) of a rotation times the sine of its angle, and the cosine."""
+    R = T[:3, :3]
+    sine = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    return sine, float(R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
 
 
 def from_quaternion(xyzw: ArrayLike, t: ArrayLike) -> FloatArray:

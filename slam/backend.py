@@ -1,4 +1,4 @@
-"""The mapper at work in the background, and what it has found so far."""
+"""Keyframes made in the background, and what the mapper has found so far."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _Pending:
 
 
 class Backend:
-    """Makes keyframes in a thread, one after the other, and keeps a copy of the map to track by.
+    """Makes keyframes in two threads, in order, and keeps a copy of the map to track by.
 
     What tracking sees changes only when it asks: with the n-th keyframe handed in, the results up
     to the (n - 2)-th are taken in, whether or not more are there. So the outcome does not depend
@@ -59,24 +59,25 @@ class Backend:
         self.keyframes: dict[int, Keyframe] = {}
         self.links: tuple[Link, ...] = ()
         self.placed: set[int] = set()
-        self._pool = ThreadPoolExecutor(1, thread_name_prefix="mapper")
+        # One describes a keyframe while the other takes the one before into the map.
+        self._describers = ThreadPoolExecutor(1, thread_name_prefix="describer")
+        self._mappers = ThreadPoolExecutor(1, thread_name_prefix="mapper")
         self._pending: deque[_Pending] = deque()
         self._closures: list[LoopClosure] = []
         self._next = 0
 
     def start(self, view: View, T_world_camera: FloatArray) -> int:
         """Make the first keyframe of a map, or of a new sub-map; return its id."""
-        keyframe = self._next
         return self._submit(
-            None, T_world_camera, lambda: self.mapper.start(keyframe, view, T_world_camera)
-        )
+            view, None, T_world_camera,
+            lambda keyframe: self.mapper.start(keyframe, view, T_world_camera),
+        )  # fmt: skip
 
     def insert(self, view: View, estimate: Estimate) -> int:
         """Make a keyframe of a view whose pose is known; return its id."""
-        keyframe = self._next
         return self._submit(
-            estimate.reference, poses.inverse(estimate.T_camera_reference),
-            lambda: self.mapper.insert(keyframe, view, estimate),
+            view, estimate.reference, poses.inverse(estimate.T_camera_reference),
+            lambda keyframe: self.mapper.insert(keyframe, view, estimate),
         )  # fmt: skip
 
     def finish(self) -> None:
@@ -89,11 +90,19 @@ class Backend:
         found, self._closures = tuple(self._closures), []
         return found
 
-    def _submit(self, reference: int | None, T: FloatArray, job: Callable[[], MapUpdate]) -> int:
+    def _submit(
+        self,
+        view: View,
+        reference: int | None,
+        T: FloatArray,
+        take_in: Callable[[Keyframe], MapUpdate],
+    ) -> int:
         keyframe, self._next = self._next, self._next + 1
+        described = self._describers.submit(self.mapper.describe, keyframe, view)
         while len(self._pending) >= IN_FLIGHT:
             self._take()
-        self._pending.append(_Pending(keyframe, reference, T, self._pool.submit(job)))
+        update = self._mappers.submit(lambda: take_in(described.result()))
+        self._pending.append(_Pending(keyframe, reference, T, update))
         self._chain()
         return keyframe
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from datasets import poses
 from datasets.camera import Intrinsics
 from slam.noise import SensorNoise
-from slam.refine import CHI2_95, NO_READING
+from slam.refine import CHI2_95, NO_READING, residuals
 
 FloatArray = NDArray[np.float64]
 
@@ -36,6 +37,12 @@ class Observations:
 
     def __len__(self) -> int:
         return len(self.cameras)
+
+    def take(self, rows: NDArray[np.intp]) -> Observations:
+        """Return the chosen ones."""
+        return Observations(
+            self.cameras[rows], self.landmarks[rows], self.pixels[rows], self.depths[rows]
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,116 +88,115 @@ def adjust(
     landmarks : (L, 3) float64
         Where they are believed to be.
     """
+    system = _System(seen, is_free, len(landmarks), intrinsics, noise)
     T, points = T_camera_world.copy(), landmarks.copy()
-    slots = np.cumsum(is_free) - 1
-    free = np.flatnonzero(is_free)
     for _ in range(iterations):
-        residual, J_camera, J_point, weight = _linearise(T, points, seen, intrinsics, noise)
-        step, moves = _solve(
-            residual, J_camera, J_point, weight, seen, is_free, slots, len(free), len(points)
-        )
-        T[free] = np.array(
-            [poses.exponential(xi) @ T[k] for xi, k in zip(step, free, strict=True)]
-        ).reshape(-1, 4, 4)
+        step, moves = system.solve(T, points)
+        for xi, k in zip(step, np.flatnonzero(is_free), strict=True):
+            T[k] = poses.exponential(xi) @ T[k]
         points += moves
-        if not len(free) or np.abs(step).max() < 1e-4:
+        if not len(step) or np.abs(step).max() < 1e-4:
             break
-    error = _errors(*_residuals(T, points, seen, intrinsics)[:2], seen, noise)
-    return Adjusted(T, points, error < CHI2_95)
+    return Adjusted(T, points, system.errors(T, points) < CHI2_95)
 
 
-def _residuals(
-    T: FloatArray, points: FloatArray, seen: Observations, intrinsics: Intrinsics
+class _System:
+    """The equations of one adjustment, camera by camera."""
+
+    def __init__(
+        self,
+        seen: Observations,
+        is_free: NDArray[np.bool_],
+        landmarks: int,
+        intrinsics: Intrinsics,
+        noise: SensorNoise,
+    ) -> None:
+        self.intrinsics, self.is_free, self.landmarks = intrinsics, is_free, landmarks
+        self._order = np.argsort(seen.cameras, kind="stable")
+        self.seen = seen.take(self._order)
+        ends = np.searchsorted(self.seen.cameras, np.arange(len(is_free) + 1)).tolist()
+        self._of_camera = [slice(a, b) for a, b in pairwise(ends)]
+        self._inverse_variance = _inverse_variances(self.seen, noise)
+
+    def errors(self, T: FloatArray, points: FloatArray) -> FloatArray:
+        """Return the observations' squared errors (N,), standard deviations; inf when behind."""
+        local = self._in_cameras(T, points)
+        residual, _ = residuals(local, self.seen.pixels, self.seen.depths, self.intrinsics)
+        error = (self._inverse_variance * residual**2).sum(axis=0)
+        errors = np.empty(len(error))
+        errors[self._order] = np.where(local[:, 2] > 0, error, np.inf)
+        return errors
+
+    def solve(self, T: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the steps of the free cameras (K', 6) and of all landmarks (L, 3)."""
+        local = self._in_cameras(T, points)
+        residual, J = residuals(local, self.seen.pixels, self.seen.depths, self.intrinsics)
+        error = (self._inverse_variance * residual**2).sum(axis=0)
+        weight = self._inverse_variance / (1.0 + error / CHI2_95)
+        cameras = int(self.is_free.sum())
+        H, g = np.zeros((cameras, 6, cameras, 6)), np.zeros((cameras, 6))
+        # Of each landmark: its Hessian, its gradient.
+        H_points, g_points = np.zeros((self.landmarks, 3, 3)), np.zeros((self.landmarks, 3))
+        coupling = np.zeros((cameras, 6, self.landmarks, 3))
+        WJ = J * weight[:, :, None]
+        slot = 0
+        for k, rows in enumerate(self._of_camera):
+            # A camera sees a landmark once, so that indices do not repeat.
+            landmarks, r = self.seen.landmarks[rows], residual[:, rows]
+            WJ_point = np.swapaxes(WJ[:, rows, 3:] @ T[k, :3, :3], 0, 1)
+            J_point = np.swapaxes(J[:, rows, 3:] @ T[k, :3, :3], 0, 1)
+            H_points[landmarks] += np.swapaxes(WJ_point, 1, 2) @ J_point
+            g_points[landmarks] += (r.T[:, None] @ WJ_point)[:, 0]
+            if self.is_free[k]:
+                own = WJ[:, rows].reshape(-1, 6)
+                H[slot, :, slot] = own.T @ J[:, rows].reshape(-1, 6)
+                g[slot] = own.T @ r.ravel()
+                coupling[slot][:, landmarks] = np.swapaxes(
+                    J[:, rows].transpose(1, 2, 0) @ WJ_point, 0, 1
+                )
+                slot += 1
+        return _eliminate(
+            H.reshape(6 * cameras, -1), g.ravel(), coupling.reshape(6 * cameras, -1, 3),
+            H_points, g_points,
+        )  # fmt: skip
+
+    def _in_cameras(self, T: FloatArray, points: FloatArray) -> FloatArray:
+        """Return what is observed (N, 3), each in the camera that observes it."""
+        local = points[self.seen.landmarks]
+        for k, rows in enumerate(self._of_camera):
+            local[rows] = poses.transform(T[k], local[rows])
+        return local
+
+
+def _eliminate(
+    H: FloatArray, g: FloatArray, coupling: FloatArray, H_points: FloatArray, g_points: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return residuals (N, 3), pixels and inverse depth, and the points in their cameras (N, 3)."""
-    of_camera = T[seen.cameras]
-    local = (of_camera[:, :3, :3] @ points[seen.landmarks][..., None])[..., 0] + of_camera[:, :3, 3]
-    z = np.maximum(local[:, 2], 1e-2)
-    residual = np.empty((len(local), 3))
-    residual[:, 0] = intrinsics.fx * local[:, 0] / z + intrinsics.cx - seen.pixels[:, 0]
-    residual[:, 1] = intrinsics.fy * local[:, 1] / z + intrinsics.cy - seen.pixels[:, 1]
-    residual[:, 2] = np.where(np.isfinite(seen.depths), 1.0 / z - 1.0 / seen.depths, 0.0)
-    return residual, local
+    """Solve for the cameras (6 K') without the landmarks (L), then for these.
+
+    Parameters
+    ----------
+    H, g : (6 K', 6 K'), (6 K',) float64
+        Of the cameras.
+    coupling : (6 K', L, 3) float64
+        Of cameras and landmarks.
+    H_points, g_points : (L, 3, 3), (L, 3) float64
+        Of the landmarks.
+    """
+    inverse = np.linalg.inv(H_points + 1e-6 * np.eye(3))
+    moved = np.einsum("lij,lj->li", inverse, g_points)
+    flat = coupling.reshape(len(g), -1)
+    # Batched by landmark: a product of many small matrices.
+    gone = np.matmul(coupling.transpose(1, 0, 2), inverse).transpose(1, 0, 2).reshape(len(g), -1)
+    reduced = H - gone @ flat.T + 1e-6 * np.eye(len(g))
+    step = -np.asarray(np.linalg.solve(reduced, g - flat @ moved.ravel()), np.float64)
+    moves = -moved - (gone.T @ step).reshape(-1, 3)
+    return step.reshape(-1, 6), moves
 
 
 def _inverse_variances(seen: Observations, noise: SensorNoise) -> FloatArray:
-    """Return how much each residual (N, 3) counts."""
-    depths = np.where(np.isfinite(seen.depths), seen.depths, 1.0)
-    sigma = np.where(np.isfinite(seen.depths), noise.depth_sigma(depths) / depths**2, NO_READING)
+    """Return how much each residual (3, N) counts."""
+    known = np.isfinite(seen.depths)
+    depths = np.where(known, seen.depths, 1.0)
+    sigma = np.where(known, noise.depth_sigma(depths) / depths**2, NO_READING)
     pixel = np.full(len(sigma), noise.pixel)
-    return np.asarray(np.column_stack([pixel, pixel, sigma]) ** -2.0)
-
-
-def _errors(
-    residual: FloatArray, local: FloatArray, seen: Observations, noise: SensorNoise
-) -> FloatArray:
-    """Return the squared errors (N,) in standard deviations; infinite behind the camera."""
-    error = (residual**2 * _inverse_variances(seen, noise)).sum(axis=1)
-    return np.where(local[:, 2] > 0, error, np.inf)
-
-
-def _linearise(
-    T: FloatArray,
-    points: FloatArray,
-    seen: Observations,
-    intrinsics: Intrinsics,
-    noise: SensorNoise,
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return residuals (N, 3), derivatives by camera (N, 3, 6) and point (N, 3, 3), weights."""
-    residual, local = _residuals(T, points, seen, intrinsics)
-    z = np.maximum(local[:, 2], 1e-2)
-    by_local = np.zeros((len(local), 3, 3))
-    by_local[:, 0, 0] = intrinsics.fx / z
-    by_local[:, 1, 1] = intrinsics.fy / z
-    by_local[:, 0, 2] = -intrinsics.fx * local[:, 0] / z**2
-    by_local[:, 1, 2] = -intrinsics.fy * local[:, 1] / z**2
-    by_local[:, 2, 2] = np.where(np.isfinite(seen.depths), -1.0 / z**2, 0.0)
-    J_camera = np.concatenate([-by_local @ poses.hat(local), by_local], axis=2)
-    J_point = by_local @ T[seen.cameras][:, :3, :3]
-    error = _errors(residual, local, seen, noise)
-    weight = _inverse_variances(seen, noise) / (1.0 + error / CHI2_95)[:, None]
-    return residual, J_camera, J_point, weight
-
-
-def _solve(
-    residual: FloatArray,
-    J_camera: FloatArray,
-    J_point: FloatArray,
-    weight: FloatArray,
-    seen: Observations,
-    is_free: NDArray[np.bool_],
-    slots: NDArray[np.intp],
-    cameras: int,
-    landmarks: int,
-) -> tuple[FloatArray, FloatArray]:
-    """Return the steps of the free cameras (K', 6) and of all landmarks (L, 3)."""
-    WJ_point = J_point * weight[:, :, None]
-    H_points = _sums(np.swapaxes(WJ_point, 1, 2) @ J_point, seen.landmarks, landmarks)
-    g_points = _sums((WJ_point * residual[:, :, None]).sum(axis=1), seen.landmarks, landmarks)
-    inverse = np.linalg.inv(H_points + 1e-6 * np.eye(3))
-    moving = is_free[seen.cameras]
-    slot, landmark = slots[seen.cameras[moving]], seen.landmarks[moving]
-    J, r = J_camera[moving], residual[moving]
-    WJ = np.swapaxes(J * weight[moving][:, :, None], 1, 2)
-    H = np.zeros((cameras, 6, cameras, 6))
-    H[np.arange(cameras), :, np.arange(cameras), :] = _sums(WJ @ J, slot, cameras)
-    g = _sums((WJ @ r[..., None])[..., 0], slot, cameras)
-    # What couples cameras and landmarks, (6 K', 3 L): each pair at most once.
-    couples = WJ @ J_point[moving]
-    coupling, eliminated = np.zeros((2, cameras, 6, landmarks, 3))
-    coupling[slot, :, landmark, :] = couples
-    eliminated[slot, :, landmark, :] = couples @ inverse[landmark]
-    flat, gone = coupling.reshape(6 * cameras, -1), eliminated.reshape(6 * cameras, -1)
-    reduced = H.reshape(6 * cameras, 6 * cameras) - gone @ flat.T
-    right = g.ravel() - gone @ g_points.ravel()
-    step = -np.asarray(np.linalg.solve(reduced + 1e-6 * np.eye(6 * cameras), right), np.float64)
-    moves = -(g_points + (flat.T @ step).reshape(-1, 3))
-    return step.reshape(-1, 6), np.einsum("lij,lj->li", inverse, moves)
-
-
-def _sums(values: FloatArray, groups: NDArray[np.intp], count: int) -> FloatArray:
-    """Return the sum of the values (N, ...) of each of `count` groups."""
-    flat = values.reshape(len(values), -1)
-    columns = [np.bincount(groups, weights=column, minlength=count) for column in flat.T]
-    stacked = np.stack(columns, axis=1).astype(np.float64)
-    return stacked.reshape(count, *values.shape[1:])
+    return np.asarray(np.stack([pixel, pixel, sigma]) ** -2.0)

@@ -101,16 +101,28 @@ class Mapper:
         self.closures: list[LoopClosure] = []
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
 
-    def start(self, keyframe_id: int, view: View, T_world_camera: FloatArray) -> MapUpdate:
-        """Make the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
-        keyframe = self._keep(keyframe_id, view)
+    def describe(self, keyframe_id: int, view: View) -> Keyframe:
+        """Make a keyframe of a view; needs nothing of the map, so it may run ahead in a thread."""
+        frame = view.frame
+        image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
+        planes = (
+            extract_planes(image.points.astype(np.float64), self.noise, self.planes, self.seed)
+            if self.planes.enabled
+            else ()
+        )
+        return Keyframe(
+            keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
+            planes, image, frame.intrinsics,
+        )  # fmt: skip
+
+    def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
+        """Take in the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
         self.graph.add_keyframe(keyframe.id, T_world_camera, starts_component=True)
         self.window.add(keyframe)
         return self._finish(view, keyframe)
 
-    def insert(self, keyframe_id: int, view: View, estimate: Estimate) -> MapUpdate:
-        """Make a keyframe of a view whose pose is known; link it to those around."""
-        keyframe = self._keep(keyframe_id, view)
+    def insert(self, keyframe: Keyframe, view: View, estimate: Estimate) -> MapUpdate:
+        """Take in a keyframe whose pose is known; link it to those around."""
         T_world_camera = self.graph[estimate.reference] @ estimate.anchor.T_keyframe_camera
         self.graph.add_keyframe(keyframe.id, T_world_camera)
         self.window.add(keyframe)
@@ -162,19 +174,6 @@ class Mapper:
             ranked.append((np.linalg.norm(T[:3, 3]) + 2 * poses.rotation_angle(T), other))
         chosen = [reference, *(k for _, k in sorted(ranked)[: self.settings.neighbours])]
         return local_map([(self.keyframes[k], self.graph[k]) for k in chosen])
-
-    def _keep(self, keyframe_id: int, view: View) -> Keyframe:
-        frame = view.frame
-        image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
-        planes = (
-            extract_planes(image.points.astype(np.float64), self.noise, self.planes, self.seed)
-            if self.planes.enabled
-            else ()
-        )
-        return Keyframe(
-            keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
-            planes, image, frame.intrinsics,
-        )  # fmt: skip
 
     def _links(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Link]:
         """Measure the motion to each keyframe around; add how it was tracked unless by these."""

@@ -7,19 +7,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+FloatArray = NDArray[np.float64]
 Matches = NDArray[np.intp]
 
+# Height of the strips that guided matching goes by, in search radii.
+STRIP_RADII = 3.0
 
-def match(
-    rows: NDArray[Any],
-    columns: NDArray[Any],
-    ratio: float,
-    allowed: NDArray[np.bool_] | None = None,
-) -> Matches:
+
+def match(rows: NDArray[Any], columns: NDArray[Any], ratio: float) -> Matches:
     """Match each of the rows to its nearest column, if it is clearly nearer than the next.
 
-    Lowe's ratio test (2004, section 7.1), among the columns allowed. Several rows may choose the
-    same column: then the nearest of them keeps it.
+    Lowe's ratio test (2004, section 7.1). Several rows may choose the same column: then the
+    nearest of them keeps it.
 
     Parameters
     ----------
@@ -27,8 +26,6 @@ def match(
     columns : (M, D) of the same kind
     ratio : float
         Largest distance to the nearest, as a share of the distance to the second nearest.
-    allowed : (N, M) bool, optional
-        Pairs that may match at all.
 
     Returns
     -------
@@ -37,14 +34,62 @@ def match(
     """
     if not len(rows) or not len(columns):
         return np.empty((0, 2), dtype=np.intp)
-    distance = squared_distances(rows, columns)
-    if allowed is not None:
-        distance[~allowed] = np.inf
-    every_row = np.arange(len(rows))
+    return _chosen(*_two_nearest(squared_distances(rows, columns)), ratio)
+
+
+def match_near(
+    rows: NDArray[Any],
+    columns: NDArray[Any],
+    predicted: FloatArray,
+    pixels: FloatArray,
+    radius: float,
+    ratio: float,
+) -> Matches:
+    """Match as `match` does, but only among columns near to where each row is predicted.
+
+    Parameters
+    ----------
+    predicted, pixels : (N, 2), (M, 2) float64
+        Where the rows should be and where the columns are.
+    radius : float
+        Largest difference in x and in y, pixels.
+    """
+    if not len(rows) or not len(columns):
+        return np.empty((0, 2), dtype=np.intp)
+    nearest = np.zeros(len(rows), dtype=np.intp)
+    best, second = np.full((2, len(rows)), np.inf, dtype=np.float32)
+    # By horizontal strips, so that most pairs that are too far apart are never compared.
+    by_y, heights = np.argsort(pixels[:, 1]), np.sort(pixels[:, 1])
+    strips = np.floor(predicted[:, 1] / (STRIP_RADII * radius)).astype(np.intp)
+    for strip in np.unique(strips):
+        mine = np.flatnonzero(strips == strip)
+        y = predicted[mine, 1]
+        first, last = np.searchsorted(heights, (y.min() - radius, y.max() + radius))
+        near_by = by_y[first:last]
+        if not len(near_by):
+            continue
+        distance = squared_distances(rows[mine], columns[near_by])
+        distance[~near(predicted[mine], pixels[near_by], radius)] = np.inf
+        found, best[mine], second[mine] = _two_nearest(distance)
+        nearest[mine] = near_by[found]
+    return _chosen(nearest, best, second, ratio)
+
+
+def _two_nearest(
+    distance: NDArray[np.float32],
+) -> tuple[Matches, NDArray[np.float32], NDArray[np.float32]]:
+    """Return the nearest column (N,), its distance, and that of the next; changes `distance`."""
+    every_row = np.arange(len(distance))
     nearest = distance.argmin(axis=1)
     best = distance[every_row, nearest].copy()
     distance[every_row, nearest] = np.inf
-    second = distance.min(axis=1)
+    return nearest, best, distance.min(axis=1)
+
+
+def _chosen(
+    nearest: Matches, best: NDArray[np.float32], second: NDArray[np.float32], ratio: float
+) -> Matches:
+    """Return the rows that pass the ratio test, each with its column; the nearest keeps it."""
     good = np.flatnonzero((best < ratio**2 * second) & np.isfinite(best))
     good = good[np.argsort(best[good], kind="stable")]
     _, first = np.unique(nearest[good], return_index=True)

@@ -69,65 +69,100 @@ def refine_motion(
         draws in a start that is some pixels off (graduated non-convexity).
     """
     T = T_camera_reference
-    rays = found.points / found.points[:, 2:]
-    sigma_reference = noise.depth_sigma(found.points[:, 2])
+    spread = found.points * (noise.depth_sigma(found.points[:, 2]) / found.points[:, 2])[:, None]
     for _ in range(iterations):
-        residual, J = _residuals(T, found, intrinsics)
-        W = _weights(T, J, rays * sigma_reference[:, None], found, noise)
-        error = np.einsum("ni,nij,nj->n", residual, W, residual)
-        W *= (1.0 / (1.0 + error / (CHI2_95 * width**2)))[:, None, None]
-        JW = np.swapaxes(J, 1, 2) @ W
-        H = (JW @ J).sum(axis=0)
-        step = -np.linalg.solve(H + 1e-6 * np.eye(6), (JW @ residual[..., None]).sum(axis=0)[:, 0])
+        local = poses.transform(T, found.points)
+        residual, J = residuals(local, found.pixels, found.depths, intrinsics)
+        error, H, g = _normal_equations(T, residual, J, spread, found, noise, CHI2_95 * width**2)
+        step = -np.asarray(np.linalg.solve(H + 1e-6 * np.eye(6), g), np.float64)
         T = poses.exponential(step) @ T
         if width == 1.0 and np.abs(step).max() < 1e-5:
             break
         width = max(1.0, width / 2)
-    residual, J = _residuals(T, found, intrinsics)
-    W = _weights(T, J, rays * sigma_reference[:, None], found, noise)
-    error = np.einsum("ni,nij,nj->n", residual, W, residual)
-    inliers = (error < CHI2_95) & (poses.transform(T, found.points)[:, 2] > 0)
-    J, W = J[inliers], W[inliers]
-    return RefinedMotion(T, (np.swapaxes(J, 1, 2) @ W @ J).sum(axis=0), inliers)
+    local = poses.transform(T, found.points)
+    residual, J = residuals(local, found.pixels, found.depths, intrinsics)
+    error, _, _ = _normal_equations(T, residual, J, spread, found, noise, np.inf)
+    inliers = (error < CHI2_95) & (local[:, 2] > 0)
+    agreeing = found.take(inliers)
+    _, H, _ = _normal_equations(
+        T, residual[:, inliers], J[:, inliers], spread[inliers], agreeing, noise, np.inf
+    )
+    return RefinedMotion(T, H, inliers)
 
 
-def _residuals(
-    T: FloatArray, found: Correspondences, intrinsics: Intrinsics
+def residuals(
+    points: FloatArray, pixels: FloatArray, depths: FloatArray, intrinsics: Intrinsics
 ) -> tuple[FloatArray, FloatArray]:
-    """Return residuals (N, 3) and their derivatives (N, 3, 6) by a left step of `T`."""
-    points = poses.transform(T, found.points)
-    z = np.maximum(points[:, 2], 1e-3)
-    residual = np.zeros((len(points), 3))
-    projected = points[:, :2] / z[:, None]
-    residual[:, :2] = projected * (intrinsics.fx, intrinsics.fy)
-    residual[:, :2] += np.array([intrinsics.cx, intrinsics.cy]) - found.pixels
-    known = np.isfinite(found.depths)
-    residual[known, 2] = 1.0 / z[known] - 1.0 / found.depths[known]
-    by_point = np.zeros((len(points), 3, 3))
-    by_point[:, 0, 0] = intrinsics.fx / z
-    by_point[:, 1, 1] = intrinsics.fy / z
-    by_point[:, 0, 2] = -intrinsics.fx * projected[:, 0] / z
-    by_point[:, 1, 2] = -intrinsics.fy * projected[:, 1] / z
-    by_point[:, 2, 2] = np.where(known, -1.0 / z**2, 0.0)
-    return residual, np.concatenate([-by_point @ poses.hat(points), by_point], axis=2)
+    """Compare points in the camera (N, 3) with the pixels (N, 2) and depths (N,) that it measured.
+
+    Returns
+    -------
+    residual : (3, N) float64
+        Two pixels and an inverse depth; this is 0 where the measured one is NaN.
+    J : (3, N, 6) float64
+        Their derivatives by a left step of the camera's motion.
+    """
+    x, y, z = points.T
+    z = np.maximum(z, 1e-3)
+    d = 1.0 / z
+    u, v = x * d, y * d
+    fx, fy = intrinsics.fx, intrinsics.fy
+    known = np.isfinite(depths)
+    residual = np.zeros((3, len(z)))
+    residual[0] = fx * u + intrinsics.cx - pixels[:, 0]
+    residual[1] = fy * v + intrinsics.cy - pixels[:, 1]
+    residual[2, known] = d[known] - 1.0 / depths[known]
+    J = np.zeros((3, len(z), 6))
+    J[0, :, 0], J[0, :, 1], J[0, :, 2] = -fx * u * v, fx * (1 + u * u), -fx * v
+    J[0, :, 3], J[0, :, 5] = fx * d, -fx * u * d
+    J[1, :, 0], J[1, :, 1], J[1, :, 2] = -fy * (1 + v * v), fy * u * v, fy * u
+    J[1, :, 4], J[1, :, 5] = fy * d, -fy * v * d
+    d = np.where(known, d, 0.0)
+    J[2, :, 0], J[2, :, 1], J[2, :, 5] = -v * d, u * d, -d * d
+    return residual, J
 
 
-def _weights(
+def _normal_equations(
     T: FloatArray,
+    residual: FloatArray,
     J: FloatArray,
     spread: FloatArray,
     found: Correspondences,
     noise: SensorNoise,
-) -> FloatArray:
-    """Return the inverse covariances (N, 3, 3) of the residuals."""
-    along = (J[:, :, 3:] @ (spread @ T[:3, :3].T)[..., None])[..., 0]
+    bound: float,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weigh the residuals (3, N) by their covariances and by Cauchy's kernel.
+
+    The inverse covariance is a diagonal less one column times itself (Sherman & Morrison), so the
+    sums are two matrix products.
+
+    Parameters
+    ----------
+    spread : (N, 3) float64
+        The standard deviations of the reference points, along their rays.
+    bound : float
+        Squared error at which a residual counts by half.
+
+    Returns
+    -------
+    error, H, g : (N,), (6, 6), (6,) float64
+        Squared errors in standard deviations, and the system to solve.
+    """
+    along = J[:, :, 3:] @ T[:3, :3]
+    along = np.einsum("kni,ni->kn", along, spread)
     known = np.isfinite(found.depths)
     depths = np.where(known, found.depths, 1.0)
     inverse = np.full(along.shape, noise.pixel**-2)
-    inverse[:, 2] = np.where(known, depths**2 / noise.depth_sigma(depths), 1 / NO_READING) ** 2
-    # The covariance is a diagonal and one column times itself: inverted after Sherman & Morrison.
+    inverse[2] = np.where(known, depths**2 / noise.depth_sigma(depths), 1 / NO_READING) ** 2
     scaled = inverse * along
-    weights = -scaled[:, :, None] * scaled[:, None, :]
-    weights /= (1.0 + (scaled * along).sum(axis=1))[:, None, None]
-    weights[:, (0, 1, 2), (0, 1, 2)] += inverse
-    return weights
+    share = 1.0 / (1.0 + (scaled * along).sum(axis=0))
+    shift = (scaled * residual).sum(axis=0)
+    error = (inverse * residual**2).sum(axis=0) - share * shift**2
+    kernel = 1.0 / (1.0 + error / bound)
+    weight = (inverse * kernel).reshape(-1, 1)
+    column = np.einsum("kn,kni->ni", scaled, J)
+    flat = J.reshape(-1, 6)
+    less = column * (share * kernel)[:, None]
+    H = (flat * weight).T @ flat - less.T @ column
+    g = flat.T @ (weight[:, 0] * residual.ravel()) - less.T @ shift
+    return error, H, g

@@ -16,6 +16,9 @@ from slam.view import EDGE_SHARE, without_edges
 
 FloatArray = NDArray[np.float64]
 
+# Metres and radians: a step as small as this, far below any camera's noise, is the last.
+CONVERGED = 1e-4
+
 
 @dataclass(frozen=True, slots=True)
 class Surface:
@@ -43,25 +46,31 @@ class Surface:
         """All points (N, 3)."""
         return np.asarray(self.points[np.isfinite(self.points[..., 2])])
 
-    def at(self, points: FloatArray) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
-        """Look points (N, 3) up where they project to.
+    def cells(self, points: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Look up where points (N, 3) project to.
 
         Returns
         -------
         which : (M,) int
-            Those that fall onto a reading.
-        points, normals : (M, 3) float64
-            What is there.
+            Those in view.
+        cells : (M,) int
+            The cell that each falls into, counted row by row.
         """
-        which = np.flatnonzero(points[:, 2] > 0.1)
-        pixels = self.intrinsics.project(points[which]) / self.stride
-        cells = np.rint(pixels).astype(np.intp)
         height, width = self.points.shape[:2]
-        inside = np.all((cells >= 0) & (cells < (width, height)), axis=1)
-        which, (columns, rows) = which[inside], cells[inside].T
-        found = self.points[rows, columns]
+        which = np.flatnonzero(points[:, 2] > 0.1)
+        x, y, z = points.T if len(which) == len(points) else points[which].T
+        K = self.intrinsics
+        columns = np.rint((K.fx * x / z + K.cx) / self.stride).astype(np.intp)
+        rows = np.rint((K.fy * y / z + K.cy) / self.stride).astype(np.intp)
+        inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
+        return which[inside], rows[inside] * width + columns[inside]
+
+    def at(self, points: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+        """Return which of points (N, 3) fall onto a reading (M,), and what is there (M, 3)."""
+        which, cells = self.cells(points)
+        found = self.points.reshape(-1, 3)[cells]
         known = np.isfinite(found[:, 2])
-        return which[known], found[known], self.normals[rows, columns][known]
+        return which[known], found[known]
 
 
 def surface_of(frame: Frame, stride: int) -> Surface:
@@ -116,23 +125,33 @@ def align_surface(
         The motion, and what the surface alone knows of it, in the target's frame.
     """
     T, H = T_target_cloud, np.zeros((6, 6))
+    normals = target.normals.reshape(-1, 3)
+    # Each cell's plane is n . p = offset.
+    offsets = np.einsum("ni,ni->n", normals, target.points.reshape(-1, 3))
     for _ in range(iterations):
         moved = poses.transform(T, cloud)
-        which, found, normals = target.at(moved)
-        residual = np.einsum("ni,ni->n", moved[which] - found, normals)
-        near = np.abs(residual) < max_distance_m  # also drops what has no normal
+        which, cells = target.cells(moved)
+        p, n = moved[which], normals[cells]
+        r = np.einsum("ni,ni->n", p, n) - offsets[cells]
+        near = np.abs(r) < max_distance_m  # also drops what has no normal
         if near.sum() < 100:
             break
-        p, n, r = moved[which][near], normals[near], residual[near]
-        J = np.concatenate([np.cross(p, n), n], axis=1)
+        p, n, r = p[near], n[near], r[near]
+        J = np.column_stack([
+            p[:, 1] * n[:, 2] - p[:, 2] * n[:, 1],
+            p[:, 2] * n[:, 0] - p[:, 0] * n[:, 2],
+            p[:, 0] * n[:, 1] - p[:, 1] * n[:, 0],
+            n,
+        ])  # fmt: skip
         variance = noise.depth_sigma(p[:, 2]) ** 2
         # Neighbouring readings err together: count one in ten.
-        weight = 0.1 / variance / (1.0 + r**2 / variance)
-        H = (J * weight[:, None]).T @ J
+        weight = 0.1 / (variance + r**2)
+        WJ = J * weight[:, None]
+        H = WJ.T @ J
         moved_by = poses.logarithm(T @ poses.inverse(T_target_cloud))
-        gradient = (J * weight[:, None]).T @ r + prior_information @ moved_by
+        gradient = WJ.T @ r + prior_information @ moved_by
         step = np.asarray(np.linalg.solve(H + prior_information, gradient))
         T = poses.exponential(-step) @ T
-        if np.abs(step).max() < 1e-5:
+        if np.abs(step).max() < CONVERGED:
             break
     return T, H

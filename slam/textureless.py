@@ -188,7 +188,7 @@ class DepthOdometry:
         """
         assert self._last is not None
         moved = poses.transform(poses.inverse(step.T_camera_last), cloud)
-        which, found, _ = self._last.at(moved)
+        which, found = self._last.at(moved)
         gap = np.abs(moved[which, 2] - found[:, 2])
         return np.asarray(np.minimum(gap, 2 * self.settings.fit_m))
 

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from datasets.settings import Settings
 from slam.local_map import LocalMap
-from slam.matching import Matches, match, near
+from slam.matching import Matches, match, match_near
 from slam.motion import Correspondences, MotionSettings, estimate_motion
 from slam.noise import SensorNoise
 from slam.refine import RefinedMotion, refine_motion
@@ -114,10 +114,10 @@ class Tracker:
         intrinsics = view.frame.intrinsics
         radius = self.settings.search_share * scale * intrinsics.width
         rows, predicted = around.visible(T_camera_reference, intrinsics, radius)
-        allowed = near(predicted, view.features.pixels, radius)
-        pairs = match(
-            around.descriptors[rows], view.features.descriptors, self.settings.ratio, allowed
-        )
+        pairs = match_near(
+            around.descriptors[rows], view.features.descriptors, predicted, view.features.pixels,
+            radius, self.settings.ratio,
+        )  # fmt: skip
         pairs[:, 0] = rows[pairs[:, 0]]
         pairs = one_a_position(pairs, view.features.pixels)
         if len(pairs) < self.settings.min_inliers:

@@ -27,7 +27,7 @@ class WindowSettings(Settings):
     size: int = Field(8, ge=2, le=50, description="latest keyframes that may move")
     held: int = Field(6, ge=1, le=50, description="older ones that see the same, held")
     landmarks: int = Field(
-        1500, ge=50, description="landmarks adjusted, about: those that most keyframes see"
+        800, ge=50, description="landmarks adjusted, about: those that most keyframes see"
     )
     min_shared: int = Field(15, ge=6, description="landmarks shared with the others, at least")
 

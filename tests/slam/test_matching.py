@@ -7,7 +7,7 @@ from datasets.frame import Frame
 from slam.appearance import AppearanceIndex, AppearanceSettings
 from slam.errors import SlamError
 from slam.features import FeatureExtractor, Features, FeatureSettings, root
-from slam.matching import match, near, squared_distances
+from slam.matching import match, match_near, near, squared_distances
 from slam.view import View, depth_at, without_edges
 
 
@@ -34,8 +34,29 @@ def test_ratio_test_refuses_what_is_ambiguous(rng):
     rows = rng.random((1, 128), np.float32)
     twins = np.repeat(rows, 2, axis=0) + 0.001
     assert len(match(rows, twins, 0.8)) == 0
-    allowed = np.array([[True, False]])
-    assert match(rows, twins, 0.8, allowed).tolist() == [[0, 0]]
+    predicted, pixels = np.zeros((1, 2)), np.array([[0.0, 0.0], [90.0, 0.0]])
+    assert match_near(rows, twins, predicted, pixels, 10.0, 0.8).tolist() == [[0, 0]]
+
+
+@pytest.mark.parametrize("radius", [2.0, 15.0, 500.0])
+def test_guided_matching_in_strips_misses_nothing(rng, radius):
+    columns, pixels = rng.random((200, 32), np.float32), rng.uniform(0, (320, 240), (200, 2))
+    order = rng.integers(0, 200, 300)
+    rows = columns[order] + 0.05 * rng.random((300, 32), np.float32)
+    predicted = pixels[order] + rng.normal(0, 4, (300, 2))
+    found = match_near(rows, columns, predicted, pixels, radius, 0.8)
+    distance = cdist(rows, columns)
+    gap = np.abs(predicted[:, None] - pixels).max(axis=2)
+    distance[gap >= radius] = np.inf
+    nearest, second = np.argsort(distance, axis=1)[:, :2].T
+    every = np.arange(300)
+    clear = distance[every, nearest] < 0.8 * distance[every, second]
+    best = {}
+    for row in np.flatnonzero(clear & np.isfinite(distance[every, nearest])):
+        column = int(nearest[row])
+        if column not in best or distance[row, column] < distance[best[column], column]:
+            best[column] = int(row)
+    assert sorted([row, column] for column, row in best.items()) == found.tolist()
 
 
 def test_a_column_is_taken_by_its_nearest_row_only(rng):
@@ -48,6 +69,8 @@ def test_nothing_matches_nothing(rng):
     some = rng.random((3, 128), np.float32)
     assert match(some[:0], some, 0.8).shape == (0, 2)
     assert match(some, some[:0], 0.8).shape == (0, 2)
+    nowhere, far = np.zeros((3, 2)), np.full((3, 2), 99.0)
+    assert match_near(some, some, nowhere, far, 5.0, 0.8).shape == (0, 2)
 
 
 def test_near_is_a_box():
