@@ -128,11 +128,16 @@ def mesh_from_points(
 def _blocks_near(points: NDArray[np.floating], near: float, side_m: float) -> NDArray[np.int32]:
     """Return the blocks (M, 3) with a corner of a cube of half side `near` around a point."""
     corners = np.stack(np.meshgrid(*[(-near, near)] * 3), axis=-1).reshape(-1, 3)
-    touched = [
-        np.unique(np.floor((points + corner) / side_m).astype(np.int32), axis=0)
-        for corner in corners
-    ]
-    return np.unique(np.concatenate(touched), axis=0)
+    where = points.astype(np.float64)
+    lowest = np.floor((where.min(axis=0) - near) / side_m).astype(np.int64)
+    size = tuple(np.floor((where.max(axis=0) + near) / side_m).astype(np.int64) - lowest + 1)
+    # Blocks as single numbers, which sort many times faster than rows of three.
+    touched = []
+    for corner in corners:
+        block = np.floor((where + corner) / side_m).astype(np.int64) - lowest
+        touched.append(np.unique(np.ravel_multi_index(tuple(block.T), size)))
+    blocks = np.unravel_index(np.unique(np.concatenate(touched)), size)
+    return np.asarray(np.column_stack(blocks) + lowest, dtype=np.int32)
 
 
 def _fill(
@@ -153,8 +158,13 @@ def _fill(
     )
     for first in range(0, len(where), QUERIES):
         places, rows = where[first : first + QUERIES], index[first : first + QUERIES]
-        distance, neighbour = tree.query(places, k=NEIGHBOURS, distance_upper_bound=near)
-        nearest = np.where(np.isfinite(distance[:, 0]), neighbour[:, 0], 0)
+        distance, neighbour = tree.query(
+            places, k=NEIGHBOURS, distance_upper_bound=near, workers=-1
+        )
+        known = np.isfinite(distance[:, 0])
+        places, rows = places[known], rows[known]
+        distance, neighbour = distance[known], neighbour[known]
+        nearest = neighbour[:, 0]
         height = np.einsum("ni,ni->n", places - points[nearest], normals[nearest])
         # Beside the nearest point by more than a voxel's face is wide, a border is overstepped.
         known = distance[:, 0] ** 2 - height**2 < 2 * (2 * near / TRUNCATION) ** 2
