@@ -45,6 +45,11 @@ class Intrinsics:
         return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1.0]])
 
     @property
+    def view_deg(self) -> float:
+        """Field of view across, degrees."""
+        return float(np.degrees(2 * np.arctan(self.width / 2 / self.fx)))
+
+    @property
     def is_distorted(self) -> bool:
         """Whether the lens distortion is other than zero."""
         return any(self.distortion)

@@ -39,9 +39,8 @@ class BeliefSettings(Settings):
         1.0, ge=0, le=100, description="way over which loops agree before they join two sub-maps"
     )
     join_turn_deg: float = Field(
-        60.0, ge=0, le=180,
-        description="or turn, of both sides: about what a camera sees at once",
-    )  # fmt: skip
+        60.0, ge=0, le=180, description="or turn, of both sides, that shows other things: at least"
+    )
     patience: int = Field(30, ge=1, description="keyframes for which a loop waits to be confirmed")
 
 
@@ -60,8 +59,12 @@ class LoopBelief:
         self.settings = settings
         self.held: list[Measured] = []
 
-    def admit(self, measured: Measured, graph: PoseGraph) -> list[Measured]:
-        """Return the loops to take: this one, with the held ones it confirms, or none."""
+    def admit(self, measured: Measured, graph: PoseGraph, view_deg: float = 0.0) -> list[Measured]:
+        """Return the loops to take: this one, with the held ones it confirms, or none.
+
+        `view_deg` is the camera's field of view across: turned as far, it sees nothing of what it
+        saw.
+        """
         link = measured.link
         joins = graph.component_of(link.first) != graph.component_of(link.second)
         if not joins:
@@ -76,12 +79,12 @@ class LoopBelief:
         if len({m.link.second for m in agreeing} - {link.second}) < self.settings.confirmations:
             return []
         taken = [*agreeing, measured]
-        if joins and not self._is_wide(taken, graph):
+        if joins and not self._is_wide(taken, graph, view_deg):
             return []
         self.held = [m for m in self.held if not any(m is t for t in taken)]
         return taken
 
-    def _is_wide(self, agreeing: list[Measured], graph: PoseGraph) -> bool:
+    def _is_wide(self, agreeing: list[Measured], graph: PoseGraph, view_deg: float) -> bool:
         """Whether loops rest on more than one thing that looks the same.
 
         Successive keyframes that see the same poster agree with each other, but are no witnesses of
@@ -97,7 +100,7 @@ class LoopBelief:
             return True
         # What was met must have turned along: else it is one thing, seen at either edge.
         turn = min(_turn_deg(seconds), _turn_deg(np.array([graph[k] for k in met])))
-        return turn >= self.settings.join_turn_deg
+        return turn >= max(self.settings.join_turn_deg, view_deg)
 
     def _can_be_drift(self, link: Link, graph: PoseGraph, times: float) -> bool:
         """Whether the shortest way of links is long enough to have drifted so far."""

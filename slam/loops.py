@@ -82,7 +82,7 @@ class LoopCloser:
                     measured.inliers, poses.inverse(measured.link.T_first_second), view,
                     keyframes[candidate],
                 ):  # fmt: skip
-                    taken = self.belief.admit(measured, graph)
+                    taken = self.belief.admit(measured, graph, keyframe.intrinsics.view_deg)
                     break
         self.index.add(keyframe.id, words)
         return taken

@@ -87,11 +87,11 @@ class PoseGraph:
     def world(self) -> int:
         """The oldest keyframe of the sub-map whose frame is the world's.
 
-        It is the oldest sub-map, but for beginnings of less than a tenth of the largest one's
-        keyframes.
+        It is the oldest sub-map with at least half as many keyframes as the largest: a beginning
+        that was soon lost gives way, and the world does not change hands between equals.
         """
         size = {root: len(self.members_of(root)) for root in self._connections.roots}
-        enough = max(size.values()) / 10
+        enough = max(size.values()) / 2
         return min(root for root in size if size[root] >= enough)
 
     def members_of(self, component: int) -> list[int]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 from pydantic import Field
 
 from datasets.camera import Intrinsics
@@ -47,7 +46,7 @@ def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) 
     if suggestion is not None:
         where = f"cx {intrinsics.cx:g}, cy {intrinsics.cy:g} in images of {width}x{height}"
         return Finding("intrinsics", f"the principal point is off the middle: {where}", suggestion)
-    view = float(np.degrees(2 * np.arctan(width / 2 / intrinsics.fx)))
+    view = intrinsics.view_deg
     if not settings.min_view_deg <= view <= settings.max_view_deg:
         return Finding(
             "intrinsics", f"fx {intrinsics.fx:g} gives a field of view of {view:.0f} degrees",

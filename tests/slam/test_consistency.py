@@ -149,3 +149,60 @@ def test_sub_maps_are_joined_only_by_loops_that_agree(rng):
     assert all(link.first == link.second - LAP for link in graph.links if link.is_loop)
     between = poses.inverse(graph[38]) @ graph[38 + LAP]
     assert np.linalg.norm(between[:3, 3]) < 0.05
+
+
+def _turning(old_deg, new_deg, rng, like=0.0):
+    """A map seen while turning from 0 to `old_deg`, and a sub-map from 0 to `new_deg`.
+
+    Returns the graph, and a loop for each keyframe of the sub-map to the one of the map that looks
+    nearest the same way, turned by `like` degrees.
+    """
+
+    def turned(degrees):
+        return poses.exponential(np.array([0, np.deg2rad(degrees), 0, 0, 0, 0]))
+
+    old, new = (np.arange(0, end + 1, 10.0) for end in (old_deg, new_deg))
+    T = [turned(angle) for angle in (*old, *(new + like))]
+    graph = PoseGraph(PoseGraphSettings())
+    for j, pose in enumerate(T):
+        starts = j in (0, len(old))
+        elsewhere = poses.pose(t=(5.0, 0, 0)) if j >= len(old) else np.eye(4)
+        graph.add_keyframe(j, elsewhere @ pose, starts_component=starts)
+        if not starts:
+            graph.add_link(_measured(T, j - 1, j, rng, is_loop=False).link)
+    graph.optimise()
+    loops = [
+        _measured(T, int(np.abs(old - angle).argmin()), len(old) + k, rng)
+        for k, angle in enumerate(new)
+    ]
+    return graph, loops
+
+
+def _joined(graph, loops, view_deg=62.0):
+    belief = LoopBelief(BeliefSettings())
+    for measured in loops:
+        for admitted in belief.admit(measured, graph, view_deg):
+            graph.add_link(admitted.link)
+        graph.optimise()
+    return graph.components == 1
+
+
+def test_a_camera_that_only_turns_is_joined_once_it_has_turned_wide(rng):
+    graph, loops = _turning(120, 90, rng)
+    assert not _joined(graph, loops[:6])
+    graph, loops = _turning(120, 90, rng)
+    assert _joined(graph, loops)
+    between = poses.inverse(graph[0]) @ graph[13]
+    assert np.linalg.norm(between[:3, 3]) < 0.02
+
+
+def test_one_thing_seen_at_either_edge_joins_nothing(rng):
+    """Turned as far as a poster stays in view: loops agree, but rest on that alone."""
+    graph, loops = _turning(60, 60, rng)
+    assert not _joined(graph, loops)
+    # The sub-map turned further, but always met what looks the same.
+    graph, loops = _turning(30, 90, rng)
+    assert not _joined(graph, loops)
+    # A wide camera keeps it in view for longer.
+    graph, loops = _turning(120, 90, rng)
+    assert not _joined(graph, loops, view_deg=100.0)

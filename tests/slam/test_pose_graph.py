@@ -195,3 +195,10 @@ def test_part_that_hung_on_a_wrong_loop_alone_is_a_sub_map_again(rng):
     assert graph.optimise() == [wrong]
     assert graph.components == 1
     assert all(np.allclose(graph[i], ring[i], atol=1e-4) for i in range(12))
+
+
+def test_a_beginning_that_was_soon_lost_gives_way_as_the_world(rng):
+    ring = _ring(12)
+    assert _two_parts(ring, 6, rng).world == 0
+    assert _two_parts(ring, 3, rng).world == 3
+    assert _two_parts(ring, 9, rng).world == 0
