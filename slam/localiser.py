@@ -62,7 +62,7 @@ class Localiser:
         """
         seen = self._by_flow(view)
         if seen is None and view.has_depth:
-            seen = self._by_features(view)
+            seen = self._by_features(view) or self._by_flow_from_last(view)
         if seen is not None:
             return self._held(view, seen)
         return self._by_depth(view) if view.has_depth else None
@@ -135,15 +135,30 @@ class Localiser:
 
     def _by_flow(self, view: View) -> Estimate | None:
         """Follow the template's corners."""
-        template = self._template
-        if template is None or not self.flow.settings.enabled:
+        if self._template is None:
+            return None
+        return self._followed(view, self._template, self._template_covariance)
+
+    def _by_flow_from_last(self, view: View) -> Estimate | None:
+        """Follow the corners of the last view: in quick motion it is blurred alike."""
+        if self._last is None or self._last_view is None or not self._last_view.has_depth:
+            return None
+        if self._template is not None and self._template.grey is self._last_view.grey:
+            return None
+        template = self.flow.template(self._last_view, self._last)
+        return self._followed(view, template, self._covariance)
+
+    def _followed(
+        self, view: View, template: Template, template_covariance: FloatArray
+    ) -> Estimate | None:
+        if not self.flow.settings.enabled:
             return None
         followed = self.flow.track(view, template, self._prediction(view, template.anchor))
         if followed is None:
             return None
         motion, seen = followed
         T = motion.T_camera_reference
-        carried = poses.adjoint(T) @ self._template_covariance @ poses.adjoint(T).T
+        carried = poses.adjoint(T) @ template_covariance @ poses.adjoint(T).T
         covariance = inverted(motion.information) + carried
         return Estimate(
             template.anchor.keyframe, T @ poses.inverse(template.anchor.T_keyframe_camera),
