@@ -23,12 +23,9 @@ def answer(
 ) -> None:
     """Tell the answers as they come: of a walk what changes, of images each one.
 
-    Raises
-    ------
-    AppError
-        The voice fails on the way; that it is not there is only noted.
+    A voice that is not there, or fails, is noted once; the answers go on in writing.
     """
-    voice = _voice() if speak else None
+    voice = _Aloud() if speak else None
     if as_json:
         rows = [whereabouts_json(graph, query.name, where) for query, where in answers]
         typer.echo(json.dumps(rows, indent=1))
@@ -41,7 +38,7 @@ def answer(
                 voice.say(f"you are in {spoken(where.place)}")
 
 
-def _follow(answers: Answers, voice: Voice | None) -> None:
+def _follow(answers: Answers, voice: _Aloud | None) -> None:
     announcer = Announcer()
     frames = placed = posed = 0
     for query, where in answers:
@@ -56,9 +53,21 @@ def _follow(answers: Answers, voice: Voice | None) -> None:
     typer.echo(f"{frames} frames: {placed} with a place, {posed} with a pose")
 
 
-def _voice() -> Voice | None:
-    try:
-        return Voice()
-    except AppError as error:
-        typer.echo(f"roomgraph: {error}", err=True)
-        return None
+class _Aloud:
+    """Says sentences until the voice fails."""
+
+    def __init__(self) -> None:
+        self._voice: Voice | None = None
+        try:
+            self._voice = Voice()
+        except AppError as error:
+            typer.echo(f"roomgraph: {error}", err=True)
+
+    def say(self, sentence: str) -> None:
+        """Say a sentence, if there is still a voice."""
+        try:
+            if self._voice is not None:
+                self._voice.say(sentence)
+        except AppError as error:
+            typer.echo(f"roomgraph: {error}", err=True)
+            self._voice = None

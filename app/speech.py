@@ -72,11 +72,13 @@ class Voice:
         done = subprocess.run(
             [self._program, "--", sentence], capture_output=True, text=True, check=False
         )
-        if done.returncode:
+        said = done.stderr.strip().splitlines()
+        # Without a sound card it complains, but ends as if all were well.
+        if done.returncode or (said and "error" in said[-1].lower()):
             raise AppError(
                 "the voice failed", where=self._program,
-                got=done.stderr.strip().splitlines()[-1] if done.stderr.strip() else
-                f"exit status {done.returncode}",
+                got=said[-1] if said else f"exit status {done.returncode}",
+                hint="is there a sound card? leave out --speak to read only",
             )  # fmt: skip
 
 

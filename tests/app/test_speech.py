@@ -1,10 +1,17 @@
 """What is said, and when: the wearable's rules."""
 
+import shutil
 import stat
+import subprocess
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from app.errors import AppError
+from app.locating import Whereabouts
+from app.prompts import answer
+from app.queries import Query
 from app.speech import Announcer, Voice, spoken
 
 
@@ -74,3 +81,42 @@ def test_a_voice_that_fails_is_an_error(tmp_path, monkeypatch):
     _program(tmp_path, monkeypatch, "echo no sound card >&2; exit 3")
     with pytest.raises(AppError, match="no sound card"):
         Voice().say("you are in office 2")
+
+
+def test_a_voice_that_ends_well_but_complains_is_an_error(tmp_path, monkeypatch):
+    _program(tmp_path, monkeypatch, "echo 'ALSA lib: no card\nerror: No such file' >&2")
+    with pytest.raises(AppError, match="error: No such file"):
+        Voice().say("you are in office 2")
+
+
+def _walk(places):
+    frames = [SimpleNamespace(stamp_s=i / 2) for i in range(len(places))]
+    return (
+        (Query(str(i), frame), Whereabouts(place, place, 0, 0.9, 40, np.eye(4)))
+        for i, (frame, place) in enumerate(zip(frames, places, strict=True))
+    )
+
+
+def test_a_walk_goes_on_in_writing_when_the_voice_fails(tmp_path, monkeypatch, capsys):
+    _program(tmp_path, monkeypatch, f"echo x >> {tmp_path}/asked; exit 1")
+    places = ["office2"] * 6 + ["corridor1"] * 6
+    answer(None, _walk(places), is_walk=True, speak=True, as_json=False)
+    out, error = capsys.readouterr()
+    assert "2.00 s: you are in office 2 (90% sure)" in out
+    assert "you are entering corridor 1" in out
+    assert "12 frames: 12 with a place, 12 with a pose" in out
+    assert error.count("the voice failed") == 1
+    assert (tmp_path / "asked").read_text() == "x\n"
+
+
+@pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="needs espeak-ng")
+def test_the_real_program_says_it_or_why_not():
+    try:
+        Voice().say("you are entering office 2")
+    except AppError as error:
+        assert "the voice failed" in str(error)
+    wave = subprocess.run(
+        ["espeak-ng", "--stdout", "--", "you are entering office 2"], capture_output=True,
+        check=True,
+    ).stdout  # fmt: skip
+    assert wave[:4] == b"RIFF" and len(wave) > 20_000
