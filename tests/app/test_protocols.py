@@ -76,7 +76,7 @@ def test_route_along_a_rendered_walk(rendered_walk, photos, tmp_path, monkeypatc
 def test_vocabulary(photos, tmp_path, monkeypatch):
     monkeypatch.setattr("app.vocabulary.NUMBERS", (4, 100))
     monkeypatch.setattr("app.vocabulary.SEEDS", (0,))
-    monkeypatch.setattr("app.vocabulary.STRIDE", 1)
+    monkeypatch.setattr("app.vocabulary.IMAGE_STRIDE", 1)
     code = roomgraph(
         monkeypatch, "eval", "--protocol", "vocabulary", "--data", photos / "train",
         "-o", tmp_path, "--quiet",
