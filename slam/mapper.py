@@ -208,5 +208,7 @@ class Mapper:
         """Drop a loop that turned out wrong."""
         ends = rejected.second, rejected.first
         self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
-        self._neighbours[rejected.first].discard(rejected.second)
-        self._neighbours[rejected.second].discard(rejected.first)
+        between = {rejected.first, rejected.second}
+        if not any({link.first, link.second} == between for link in self.graph.links):
+            self._neighbours[rejected.first].discard(rejected.second)
+            self._neighbours[rejected.second].discard(rejected.first)

@@ -82,10 +82,9 @@ class Window:
             return {}
         shared = self._seen_by(free)
         counts = [
-            (int(shared[ids[ids >= 0]].sum()), k)
+            (int(np.isin(self._landmark[k], shared).sum()), k)
             for k in around - set(free)
             if k in self._landmark
-            for ids in (self._landmark[k],)
         ]
         counts = sorted(c for c in counts if c[0] >= self.settings.min_shared)
         held = [k for _, k in counts[-self.settings.held :]]
@@ -141,9 +140,8 @@ class Window:
             rows.append(known)
             ids.append(self._landmark[k][known])
         camera, row, landmark = (np.concatenate(c) for c in (cameras, rows, ids))
-        views = np.bincount(landmark, minlength=self._count)
-        enough = max(2, _fewest(views, self.settings.landmarks))
-        often = views[landmark] >= enough
+        _, which, views = np.unique(landmark, return_inverse=True, return_counts=True)
+        often = views[which] >= _fewest(views, self.settings.landmarks)
         return camera[often], row[often], landmark[often]
 
     def _connected(self, candidates: list[int]) -> list[int]:
@@ -157,12 +155,10 @@ class Window:
             candidates.pop(int(count.argmin()))
         return candidates
 
-    def _seen_by(self, chosen: list[int]) -> NDArray[np.bool_]:
-        mask = np.zeros(self._count, dtype=bool)
-        for k in chosen:
-            ids = self._landmark[k]
-            mask[ids[ids >= 0]] = True
-        return mask
+    def _seen_by(self, chosen: list[int]) -> IntArray:
+        """Return the landmarks that any of these keyframes sees."""
+        ids = np.unique(np.concatenate([self._landmark[k] for k in chosen]))
+        return ids[ids >= 0]
 
     def _make(self, owner: int, positions: FloatArray) -> IntArray:
         """Make landmarks of points (N, 3) in a keyframe's camera; return their ids."""
