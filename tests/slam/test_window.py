@@ -102,7 +102,7 @@ def test_few_shared_landmarks_are_not_adjusted(row, rng):
 
 
 def test_no_more_landmarks_than_asked_for_while_many_have_many_views(row):
-    keyframes, T_world = row
+    keyframes, _ = row
     few = np.arange(60)
     window = _window({k: keyframes[k] for k in range(5)}, landmarks=50)
     window.add(keyframes[5])
