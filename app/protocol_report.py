@@ -1,9 +1,8 @@
-"""Tables and pictures of an experiment."""
+"""What an experiment found, and its tables."""
 
 from __future__ import annotations
 
 import json
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,19 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from datasets.files import replacing, write_text
+from app.protocol_pictures import draw
+from datasets.files import write_text
 from semantics.calibration import (
     auroc,
     brier_score,
     expected_calibration_error,
-    rejection_curve,
-    reliability,
 )
 from semantics.evaluation import LabelAccuracy, compare_labels
 from semantics.trials import Judgement, Trial, per_class
-
-# Letters on a line beside a bar.
-_NAME_WIDTH = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +97,7 @@ class ProtocolReport:
 
 def judged(judgement: Judgement) -> dict[str, Any]:
     """Return the figures of the probabilities."""
-    confidence, right = _confidence(judgement)
+    confidence, right = judgement.confidence
     index = np.array([judgement.classes.index(str(name)) for name in judgement.truth])
     areas = {k: auroc(judgement.usual[k], v) for k, v in judgement.strange.items() if len(v)}
     return {
@@ -120,7 +115,7 @@ def write_report(directory: Path, report: ProtocolReport) -> dict[str, Any]:
     text = json.dumps(content, indent=1, allow_nan=False)
     write_text(directory / f"{report.name}.json", text + "\n")
     write_text(directory / f"{report.name}.md", markdown(content))
-    _draw(directory / f"{report.name}.png", report, content)
+    draw(directory / f"{report.name}.png", content, report.confusion, report.judgement)
     return content
 
 
@@ -159,85 +154,6 @@ def _row(name: str, trials: Sequence[Trial]) -> dict[str, Any]:
         "trials": len(trials),
         "images": sum(len(trial.truth) for trial in trials),
     }
-
-
-def _confidence(judgement: Judgement) -> tuple[np.ndarray, np.ndarray]:
-    best = judgement.probabilities.argmax(axis=1)
-    right = np.array(judgement.classes)[best] == judgement.truth
-    return judgement.probabilities.max(axis=1), right
-
-
-def _draw(path: Path, report: ProtocolReport, content: dict[str, Any]) -> None:
-    from matplotlib.figure import Figure
-
-    count = 2 if report.judgement is None else 4
-    figure = Figure(figsize=(5.2 * min(count, 2), 4.6 * (count // 2)), layout="constrained")
-    axes = np.ravel(figure.subplots(count // 2, 2))
-    _draw_rows(axes[0], report, content)
-    _draw_confusion(axes[1], report.confusion)
-    if report.judgement is not None:
-        _draw_reliability(axes[2], report.judgement, content)
-        _draw_rejection(axes[3], report.judgement, content)
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=110)
-
-
-def _draw_rows(axis: Any, report: ProtocolReport, content: dict[str, Any]) -> None:
-    rows = content["rows"][::-1]
-    axis.barh(
-        [textwrap.fill(row["name"], _NAME_WIDTH) for row in rows],
-        [100 * row["accuracy_mean"] for row in rows],
-        xerr=[100 * row["accuracy_std"] for row in rows],
-        color="#4e79a7", ecolor="0.3", capsize=3,
-    )  # fmt: skip
-    axis.set(xlim=(0, 104), xlabel="images right (%)")
-    axis.set_title(f"{report.name}, preset {report.preset}", loc="left")
-    axis.spines[["top", "right"]].set_visible(False)
-
-
-def _draw_confusion(axis: Any, accuracy: LabelAccuracy) -> None:
-    share = accuracy.confusion / np.maximum(accuracy.confusion.sum(axis=1, keepdims=True), 1)
-    axis.imshow(share, cmap="Blues", vmin=0, vmax=1)
-    names = [name.replace("_", " ") for name in accuracy.names]
-    axis.set_xticks(range(len(names)), names, rotation=45, ha="right", fontsize=8)
-    axis.set_yticks(range(len(names)), names, fontsize=8)
-    for (i, j), value in np.ndenumerate(share):
-        if value >= 0.005:
-            colour = "white" if value > 0.5 else "black"
-            axis.text(
-                j, i, f"{100 * value:.0f}", ha="center", va="center", color=colour, fontsize=8
-            )
-    axis.set(xlabel="found", ylabel="true")
-    axis.set_title("confusion (%)", loc="left")
-
-
-def _draw_reliability(axis: Any, judgement: Judgement, content: dict[str, Any]) -> None:
-    table = reliability(*_confidence(judgement))
-    table = table[table[:, 2] > 0]
-    axis.plot([0, 1], [0, 1], color="0.7", lw=1)
-    axis.plot(table[:, 0], table[:, 1], "o-", color="#e15759")
-    for x, y, count in table:
-        axis.annotate(f"{count:.0f}", (x, y), (4, -10), textcoords="offset points", fontsize=7)
-    axis.set(xlim=(0, 1), ylim=(0, 1), xlabel="probability of the label", ylabel="share right")
-    axis.set_title(f"buildings never seen: ECE {content['ece']:.3f}", loc="left")
-    axis.spines[["top", "right"]].set_visible(False)
-
-
-def _draw_rejection(axis: Any, judgement: Judgement, content: dict[str, Any]) -> None:
-    for name, strange in judgement.strange.items():
-        limits = np.quantile(judgement.usual[name], np.linspace(0, 1, 101))
-        kept = [(judgement.usual[name] >= limit).mean() for limit in limits]
-        refused = [(strange < limit).mean() for limit in limits]
-        label = f"{name.replace('_', ' ')} {content['unknown_auroc'].get(name, float('nan')):.2f}"
-        axis.plot(kept, refused, label=label)
-    curve = rejection_curve(*_confidence(judgement))
-    axis.plot(curve[:, 0], curve[:, 1], color="black", ls="--", label="known: share right")
-    axis.set(
-        xlim=(0, 1), ylim=(0, 1.02), xlabel="known places kept", ylabel="places never seen refused"
-    )
-    axis.legend(frameon=False, fontsize=7, loc="lower left", title="never seen, AUROC")
-    axis.set_title("unknown", loc="left")
-    axis.spines[["top", "right"]].set_visible(False)
 
 
 def _rounded(value: Any) -> float:

@@ -104,6 +104,13 @@ class Judgement:
     strange: dict[str, NDArray[np.float64]] = field(default_factory=dict)
     usual: dict[str, NDArray[np.float64]] = field(default_factory=dict)
 
+    @property
+    def confidence(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """The largest probability of each image (N,), and whether its class is the true one."""
+        best = self.probabilities.argmax(axis=1)
+        right = np.array(self.classes)[best] == self.truth
+        return self.probabilities.max(axis=1), right
+
 
 def per_class(trials: Sequence[Trial]) -> dict[str, float]:
     """Return the share of the images of each class that were labelled rightly, over all trials."""
