@@ -22,12 +22,13 @@ from app.viewer import MapView, SessionView, Viewer
 from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
-from semantics.extents import Vote, with_extents
+from semantics.extents import with_extents
 from semantics.floor import places_at
 from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel, PlaceLabeller
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
+from semantics.parts import Vote
 from semantics.topology import TopologicalMap
 from slam.map import PointMap
 from slam.memory import remember

@@ -18,7 +18,8 @@ from semantics.extraction import Described, describe_images
 from semantics.filter import count_transitions
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel, PlacePrediction
-from semantics.training import Preset, learn, preset, threshold, vectors_of, walks_of
+from semantics.presets import Preset, preset
+from semantics.training import learn, threshold, vectors_of, walks_of
 from semantics.trials import Bench
 
 # Vectors of more images than this are left as they are: turning them would take longer.

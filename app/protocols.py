@@ -22,8 +22,8 @@ from app.protocol_walks import SEEDS, STRIDE, WORD_SEED, Walk, data_walks, rende
 from datasets.errors import RoomgraphError
 from semantics import trials
 from semantics.model import PlaceModel
+from semantics.presets import Preset
 from semantics.route import route_trials
-from semantics.training import Preset
 from semantics.trials import Bench, Trial
 
 PERMUTATIONS = 100

@@ -14,7 +14,8 @@ from datasets.open import guess_layout, open_sequence
 from semantics.examples import Example, folder_examples, sequence_examples
 from semantics.model import PlaceModel
 from semantics.model_io import save_model
-from semantics.training import Preset, preset, train
+from semantics.presets import Preset, preset
+from semantics.training import train
 
 
 def labelled_examples(root: Path) -> list[Example]:

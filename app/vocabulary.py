@@ -18,7 +18,7 @@ from app.protocol_walks import STRIDE, WORD_SEED, data_walks, rendered_walks
 from datasets.files import replacing, write_text
 from semantics.extraction import describe_images
 from semantics.neural_gas import NeuralGas
-from semantics.training import preset
+from semantics.presets import preset
 
 NAME = "vocabulary"
 NUMBERS = (10, 25, 50, 100, 200, 400)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from datasets.settings import Settings
-from semantics.extents import ExtentSettings
 from semantics.labeller import LabellerSettings
+from semantics.parts import ExtentSettings
+from semantics.presets import TrainingSettings
 from semantics.topology import TopologySettings
-from semantics.training import TrainingSettings
 
 
 class SemanticsSettings(Settings):

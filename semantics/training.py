@@ -8,13 +8,11 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from itertools import groupby
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
-from datasets.settings import Settings
 from semantics.classifier import PlaceClassifier
 from semantics.dense import DenseDescriptors, DenseSettings, describe_small
 from semantics.errors import SemanticsError
@@ -22,10 +20,11 @@ from semantics.examples import Example, thin_out
 from semantics.extraction import Described, describe_images
 from semantics.filter import count_transitions
 from semantics.fisher import FisherEncoder
-from semantics.histogram import BagOfFeatures, Normalisation, normalise
+from semantics.histogram import BagOfFeatures, normalise
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import Lessons, PlaceModel
 from semantics.neural_gas import NeuralGas
+from semantics.presets import TrainingSettings
 from slam.features import FeatureSettings
 
 logger = logging.getLogger(__name__)
@@ -34,61 +33,6 @@ Progress = Callable[[int, int], None]
 
 # The encoder is learned from so many dense descriptors of an image, of so many images at most.
 _DENSE_SAMPLE, _DENSE_IMAGES = 200, 500
-
-
-class FisherSettings(Settings):
-    """How images are described as a whole."""
-
-    n_words: int = Field(64, ge=2, le=4096, description="Gaussians, started from Neural Gas words")
-    n_components: int = Field(64, ge=2, le=128, description="principal axes of the descriptors")
-    em_steps: int = Field(10, ge=0, le=1000, description="steps of expectation maximisation")
-    dense: DenseSettings = DenseSettings()
-
-
-class TrainingSettings(Settings):
-    """What is learned from how many images."""
-
-    stride: int = Field(1, ge=1, description="every n-th image of each label is used")
-    max_images_per_label: int = Field(200, ge=2, description="at most so many, evenly spread")
-    n_words: int = Field(100, ge=2, le=10000, description="visual words (paper: 100)")
-    n_epochs: int = Field(5, ge=1, le=1000, description="Neural Gas passes over the descriptors")
-    max_descriptors: int = Field(
-        200_000, ge=100, description="the words are learned from a sample of so many descriptors"
-    )
-    normalisation: Normalisation = Field(
-        "hellinger", description="histograms the SVM sees: l1 (paper), l2 or hellinger"
-    )
-    encoding: Literal["words", "fisher"] = Field(
-        "fisher", description="what the SVM sees: histograms of words (paper), or Fisher vectors"
-    )
-    C: float = Field(10.0, gt=0, description="penalty of the SVM (paper: 10)")
-    min_features: int = Field(
-        5, ge=1, description="an image with fewer features than this is of an unknown place"
-    )
-    threads: int = Field(2, ge=1, le=64, description="images read and described at once")
-    reject: float = Field(
-        0.01, ge=0, lt=1,
-        description="share of held-out images that may be called unknown to keep strange ones out",
-    )  # fmt: skip
-    lessons: int = Field(
-        100, ge=0,
-        description="images of each label kept in the model, so that it can take in others later",
-    )  # fmt: skip
-    fisher: FisherSettings = FisherSettings()
-
-
-# What the SVM sees in the paper: shares of 100 words of SIFT features that pass a strict threshold.
-PAPER = TrainingSettings(encoding="words", normalisation="l1", C=10.0, reject=0.0)
-PAPER_FEATURES = FeatureSettings(detector="sift", contrast_threshold=0.04)
-# Found by cross-validation on training photographs alone, see the README.
-BEST = TrainingSettings()
-
-Preset = Literal["paper", "best"]
-
-
-def preset(name: Preset) -> tuple[TrainingSettings, FeatureSettings]:
-    """Return the settings of a named preset, and the features it is made for."""
-    return (PAPER, PAPER_FEATURES) if name == "paper" else (BEST, FeatureSettings())
 
 
 @dataclass(frozen=True, slots=True)

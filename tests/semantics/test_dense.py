@@ -8,7 +8,7 @@ from threadpoolctl import threadpool_limits
 
 from semantics.dense import DenseDescriptors, DenseSettings, describe_densely
 from semantics.fisher import FisherEncoder
-from semantics.training import FisherSettings
+from semantics.presets import FisherSettings
 
 SETTINGS = DenseSettings(side=96, scales=2, step=6)
 

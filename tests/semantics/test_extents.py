@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from semantics.extents import ExtentSettings, Vote, with_extents
+from semantics.extents import with_extents
 from semantics.graph import GraphNode, SemanticGraph
 from semantics.labels import LabelSpace
+from semantics.parts import ExtentSettings, Vote
 from semantics.topology_evaluation import (
     evaluate_doorways,
     evaluate_extents,

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from datasets.poses import pose
-from semantics.extents import ExtentSettings, Vote, with_extents
+from semantics.extents import with_extents
+from semantics.parts import ExtentSettings, Vote
 from semantics.topology import TopologicalMap, TopologySettings
 from slam.ground import Ground
 from slam.occupancy import occupancy

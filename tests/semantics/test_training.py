@@ -10,7 +10,8 @@ from datasets.frame import Frame
 from datasets.places import PlaceTruth
 from semantics.errors import SemanticsError
 from semantics.examples import folder_examples, sequence_examples, thin_out
-from semantics.training import TrainingSettings, train
+from semantics.presets import TrainingSettings
+from semantics.training import train
 from slam.features import FeatureExtractor, FeatureSettings
 
 FEATURES = FeatureSettings(max_features=200)

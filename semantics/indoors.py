@@ -1,0 +1,119 @@
+"""What of the floor is indoors: where it was seen to be free, and where nobody looked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from semantics.region_settings import RegionSettings
+from semantics.watershed import NEIGHBOURS, BoolImage, RegionImage
+from slam.space import Space
+
+# A cell is solid from so many hits, and clear where more than so many rays passed for each hit.
+_SOLID, _CLEAR = 2, 2
+# A lintel begins within so many cells of a wall.
+_HOLD = 2
+# A hole in what was seen is room if less of its ring than this is wall.
+_OPEN_RING = 0.2
+# So many cells from a wall is away from it: its noise, and a cell's diagonal.
+_AWAY = 2.5
+
+
+def interior(space: Space, settings: RegionSettings) -> tuple[BoolImage, BoolImage, BoolImage]:
+    """Return which cells (R, C) are indoors, which solid from floor to top, which under a lintel.
+
+    Over a table or under a shelf there is room, too: what counts is sight through the column at
+    any height.
+    """
+    hits, passes = space.hits[1:-1], space.passes[1:-1]
+    clear: BoolImage = passes > _CLEAR * hits.astype(np.int32)
+    is_open = np.asarray(clear.any(axis=0), dtype=bool)
+    inside = is_open | (space.hits[0] > 0) | (space.passes[0] > 0)
+    high = space.layers(settings.lintel_low_m, settings.lintel_high_m)
+    below = space.layers(0.0, settings.lintel_low_m)
+    lintel = np.asarray(
+        (space.hits[high] >= _SOLID).any(axis=0) & (space.passes[below] > 0).any(axis=0)
+    )
+    wall = np.asarray(((hits >= _SOLID) & ~clear).any(axis=0) & ~is_open)
+    inside &= ~wall
+    # A lintel hangs between walls; a lamp does not.
+    held = ndimage.binary_propagation(
+        ndimage.binary_dilation(wall, NEIGHBOURS, iterations=_HOLD) & lintel,
+        NEIGHBOURS, mask=lintel,
+    )  # fmt: skip
+    return _filled(inside, wall), wall, held & inside
+
+
+def _filled(inside: BoolImage, wall: BoolImage) -> BoolImage:
+    """Fill what nobody looked at in the middle of a room: holes with next to no wall around."""
+    holes, count = ndimage.label(~inside & ~wall)
+    result = inside.copy()
+    for i, window in enumerate(ndimage.find_objects(holes, count), 1):
+        window = tuple(slice(max(0, s.start - 1), s.stop + 1) for s in window)
+        hole = holes[window] == i
+        ring = ndimage.binary_dilation(hole, NEIGHBOURS) & ~hole
+        at_border = any(
+            s.start == 0 or s.stop >= n for s, n in zip(window, inside.shape, strict=True)
+        )
+        if not at_border and wall[window][ring].mean() < _OPEN_RING:
+            result[window] |= hole
+    return result
+
+
+def bridged(
+    inside: BoolImage, width: NDArray[np.float64], gap_m: float, cell_m: float
+) -> BoolImage:
+    """Close gaps of sight that lie away from walls."""
+    radius = max(1, round(gap_m / 2 / cell_m))
+    padded = np.pad(inside, radius)
+    near = ndimage.distance_transform_edt(~padded) <= radius
+    closed = ndimage.distance_transform_edt(near) > radius
+    closed = closed[radius:-radius, radius:-radius]
+    return np.asarray(inside | (closed & (width > _AWAY * cell_m)))
+
+
+def completed(
+    regions: RegionImage, wall: BoolImage, settings: RegionSettings, cell_m: float
+) -> RegionImage:
+    """Complete each region (R, C) within its rectangle by what hangs together with it unseen.
+
+    Corners beside a door are seldom looked at. What is neither wall nor another region belongs to
+    the room as far as its seen part reaches along both directions of the walls. A region that
+    fills nearly all of its rectangle gets the rest, too: that is a cupboard up to the ceiling.
+    """
+    side = max(1, round(settings.detail_m / cell_m))
+    reach = max(1, round(settings.reach_m / cell_m))
+    square = np.ones((side, side), dtype=bool)
+    result = np.zeros_like(regions)
+    for region in (int(r) for r in np.unique(regions) if r):
+        seen = ndimage.binary_opening(regions == region, square)
+        if not seen.any():
+            continue
+        window = ndimage.find_objects(seen.astype(np.int8))[0]
+        open_ = ((regions == 0) & ~wall)[window] | seen[window]
+        # Through a hole in a wall, narrower than the square, nothing flows.
+        open_ = ndimage.binary_opening(open_, square) | seen[window]
+        full = ndimage.binary_propagation(seen[window], mask=open_)
+        full = ndimage.binary_fill_holes(_corners(full, seen[window]))
+        mine = (regions[window] == 0) | (regions[window] == region)
+        # What the fronts of furniture and partitions take up is floor, too.
+        if (ndimage.binary_dilation(full, iterations=reach) & mine).mean() >= settings.squareness:
+            full = np.ones_like(full)
+        result[window][full & mine & (result[window] == 0)] = region
+    return result
+
+
+def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:
+    """Return what was seen with those unseen pieces of `full` that are no more than corners of it.
+
+    Cut off by a straight edge of sight, a corner's area is a quarter of the edge's square at most;
+    what is larger than the square is a room of its own behind a gap.
+    """
+    pieces, _ = ndimage.label(full & ~seen, NEIGHBOURS)
+    contact = ndimage.binary_dilation(seen, NEIGHBOURS) & (pieces > 0)
+    areas = np.bincount(pieces.ravel())
+    edges = np.bincount(pieces[contact], minlength=len(areas))
+    is_corner = areas <= edges**2
+    is_corner[0] = False
+    return np.asarray(seen | is_corner[pieces])
