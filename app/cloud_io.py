@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from app.errors import AppError
 from datasets.files import replacing
 
+_PLY_KINDS = {"<f4": "float", "u1": "uchar", "<i4": "int"}
+
 
 def write_cloud(
     path: Path,
@@ -23,16 +25,27 @@ def write_cloud(
 
     Points (N, 3) are in metres, colours (N, 3), labels (N,), normals (N, 3) of unit length.
     """
-    import open3d as o3d
-
-    cloud = o3d.t.geometry.PointCloud(o3d.core.Tensor(np.ascontiguousarray(points)))
-    cloud.point.colors = o3d.core.Tensor(np.ascontiguousarray(colours))
+    # Written here, not by Open3D: a run needs none of it, and to import it takes a second.
+    columns: list[tuple[str, str, NDArray[Any]]] = [
+        (name, "<f4", column) for name, column in zip("xyz", points.T, strict=True)
+    ]
     if normals is not None:
-        cloud.point.normals = o3d.core.Tensor(np.ascontiguousarray(normals))
-    cloud.point["label"] = o3d.core.Tensor(label_ids.astype(np.int32)[:, None])
+        names = ("nx", "ny", "nz")
+        columns += [(n, "<f4", column) for n, column in zip(names, normals.T, strict=True)]
+    names = ("red", "green", "blue")
+    columns += [(n, "u1", column) for n, column in zip(names, colours.T, strict=True)]
+    columns.append(("label", "<i4", label_ids))
+    rows = np.empty(len(points), dtype=[(name, kind) for name, kind, _ in columns])
+    for name, _, column in columns:
+        rows[name] = column
+    properties = "".join(f"property {_PLY_KINDS[kind]} {name}\n" for name, kind, _ in columns)
+    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(rows)}\n{properties}"
     with replacing(path) as temporary:
-        if not len(points) or not o3d.t.io.write_point_cloud(str(temporary), cloud):
-            raise AppError("map cannot be written", where=path, got=f"{len(points)} points")
+        if not len(points):
+            raise AppError("map cannot be written", where=path, got="0 points")
+        with temporary.open("wb") as file:
+            file.write(f"{header}end_header\n".encode("ascii"))
+            rows.tofile(file)
 
 
 def read_cloud(path: Path) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.int32]]:

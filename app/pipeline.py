@@ -86,7 +86,7 @@ class Pipeline:
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
         self._labelled: list[FrameLabel] = []
         self._unlabelled: deque[Tracking] = deque()
-        self._drawn_keyframes = 0
+        self._drawn_keyframes, self._bent = 0, False
 
     def run(self) -> dict[str, Any]:
         """Map the whole sequence and return its metrics.
@@ -168,7 +168,7 @@ class Pipeline:
             for event in _events(tracking):
                 self.viewer.log(tracking.index, event)
             if self._is_map_due(tracking):
-                self._drawn_keyframes = len(self.slam.keyframes)
+                self._drawn_keyframes, self._bent = len(self.slam.keyframes), False
                 self.viewer.show_map(tracking.index, lambda: self._map_view(self.slam.sketch_map()))
         self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
 
@@ -180,10 +180,12 @@ class Pipeline:
         return replace(tracking, T_world_camera=None)
 
     def _is_map_due(self, tracking: Tracking) -> bool:
-        """Whether the map has grown enough, or a loop has bent it, since it was last shown."""
-        due = self._drawn_keyframes + self.settings.recording.map_every
+        """Whether the map has grown enough since it was shown; half as much if loops bent it."""
+        every = self.settings.recording.map_every
+        self._bent |= bool(tracking.closures)
+        due = self._drawn_keyframes + (every // 2 if self._bent else every)
         first = tracking.is_keyframe and self._drawn_keyframes == 0
-        return first or len(self.slam.keyframes) >= due or bool(tracking.closures)
+        return first or len(self.slam.keyframes) >= due
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:

@@ -33,6 +33,8 @@ FloatArray = NDArray[np.float64]
 _NOTHING = np.empty((0, 3))
 # Frames of the path drawn since the last map: each frame sends them anew.
 _RECENT = 300
+# Frames from one drawing of the path to the next.
+_PATH_EVERY = 4
 
 
 class RerunViewer:
@@ -173,15 +175,16 @@ class RerunViewer:
             self._recording.log(entity, rr.StateChange(state=state))
 
     def _show_images(self, frame: Frame, tracking: Tracking) -> None:
+        """Show every n-th image with its features, and those that more hangs on."""
         settings, log = self.settings, self._recording.log
-        if tracking.index % settings.colour_stride == 0:
-            jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
-            log(
-                "world/camera/image/colour", rr.EncodedImage(contents=jpeg, media_type="image/jpeg")
-            )
-        if tracking.index % settings.depth_stride == 0:
+        matters = tracking.is_keyframe or not tracking.state.has_pose
+        if matters or tracking.index % settings.depth_stride == 0:
             png = rerun_images.encode_depth(frame, settings.depth_step)
             log("world/camera/depth/image", rerun_scene.depth_image(png))
+        if not matters and tracking.index % settings.colour_stride:
+            return
+        jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
+        log("world/camera/image/colour", rr.EncodedImage(contents=jpeg, media_type="image/jpeg"))
         pixels = tracking.pixels[: settings.max_keypoints]
         usable = rerun_images.has_depth(frame, pixels)
         plain, lost = rerun_scene.PLAIN_COLOUR, not tracking.state.has_pose
@@ -194,7 +197,8 @@ class RerunViewer:
         self._poses.append(pose)
         self._recent.append(pose)
         self._recording.log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
-        self._draw_recent()
+        if pose.frame % _PATH_EVERY == 0:
+            self._draw_recent()
 
     def _draw_recent(self) -> None:
         """Draw the path since the last frame that the last map's path has."""

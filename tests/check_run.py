@@ -48,7 +48,7 @@ def problems(root: Path, min_places: float | None, max_ate: float | None) -> lis
     if nodes != metrics["graph_nodes"]:
         found.append(f"{nodes} nodes in graph.graphml, {metrics['graph_nodes']} said")
     entities = {str(c.entity_path) for c in RrdReader(root / "recording.rrd").store().stream()}
-    for wanted in ("/world/camera", "/world/map/colour", "/world/map/labels", "/graph/nodes"):
+    for wanted in ("/world/camera", "/world/map/colour", "/world/map/labels", "/graph"):
         if wanted not in entities:
             found.append(f"recording lacks {wanted}")
     if max_ate is not None and not metrics["ate_rmse_m"] <= max_ate:
