@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,48 +11,21 @@ import numpy as np
 
 from app.console import Terminal
 from app.errors import AppError
-from app.protocol_data import (
-    Collection,
-    Describer,
-)
+from app.protocol_data import Describer
+from app.protocol_material import Material, gather
 from app.protocol_report import ProtocolReport
 from app.protocol_route import FINISHED, FinishedRun, finished_run
 from app.protocol_sights import route_positions
-from app.protocol_walks import SEEDS, STRIDE, WORD_SEED, Walk, data_walks, rendered_walks
+from app.protocol_walks import SEEDS, STRIDE, data_walks
 from datasets.errors import RoomgraphError
 from semantics import trials
-from semantics.model import PlaceModel
 from semantics.presets import Preset
 from semantics.route import route_trials
-from semantics.trials import Bench, Trial
+from semantics.trials import Trial
 
 PERMUTATIONS = 100
 # Across light, twice as many images: those learned from, and those halfway between.
 LIGHT_STRIDE = STRIDE // 2
-WORDS_NOTE = "The words are learned from images that are never tested: {}."
-
-
-@dataclass(frozen=True, slots=True)
-class Material:
-    """What an experiment works on."""
-
-    describer: Describer
-    walks: list[Walk]
-    collection: Collection
-    bench: Bench
-    data: tuple[str, ...]
-    notes: tuple[str, ...]
-    seed: int
-    terminal: Terminal
-
-    def watched(self, title: str, found: Iterator[Trial], total: int) -> tuple[Trial, ...]:
-        """Return all trials, with a progress bar."""
-        done = []
-        with self.terminal.progress(title) as advance:
-            for trial in found:
-                done.append(trial)
-                advance(len(done), total, trial.row)
-        return tuple(done)
 
 
 def run_protocol(
@@ -77,7 +50,7 @@ def run_protocol(
     if name == "recognition" and len(data) == 1 and (data[0] / "test").is_dir():
         return _train_and_test(preset, data[0], seed, terminal)
     stride = LIGHT_STRIDE if name == "light" else STRIDE
-    material = _material(preset, data, seed, terminal, seeds, stride)
+    material = gather(preset, data, seed, terminal, seeds, stride)
     return replace(PROTOCOLS[name](material), name=name, preset=preset)
 
 
@@ -172,7 +145,7 @@ def _route(m: Material) -> ProtocolReport:
     runs: list[FinishedRun] = []
     for done, walk in enumerate(routes, 1):
         images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
-        model = _model_without(m, walk.building)
+        model = m.model_without(walk.building)
         found += route_trials(
             model, m.describer.predictions(model, images),
             [image.example.label for image in images],
@@ -207,47 +180,12 @@ def _route(m: Material) -> ProtocolReport:
     )
 
 
-def _model_without(m: Material, building: str) -> PlaceModel:
-    """Return a model of all buildings but one; the words are those of the bench."""
-    kept = [i for i, walk in enumerate(m.collection.walks) if walk.building != building]
-    return m.describer.relearned(
-        [m.collection.images[i] for i in kept], m.collection.vectors[kept],
-        [m.collection.walks[i].building for i in kept], m.seed,
-    )  # fmt: skip
-
-
 PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
     "recognition": _recognition,
     "light": _light,
     "building": _building,
     "route": _route,
 }
-
-
-def _material(
-    preset: Preset,
-    data: Sequence[Path],
-    seed: int,
-    terminal: Terminal,
-    seeds: Sequence[int],
-    stride: int,
-) -> Material:
-    if data:
-        walks = data_walks(data)
-        words = [e for walk in walks for e in walk.examples[::STRIDE]]
-        note = "The words are learned from a quarter of all images, without their labels."
-    else:
-        walks = rendered_walks(seeds, terminal)
-        words = [e for w in rendered_walks((WORD_SEED,), terminal) for e in w.examples[::STRIDE]]
-        note = WORDS_NOTE.format(f"building {WORD_SEED}")
-    describer = Describer(preset, words, seed, terminal)
-    collection = describer.collect(walks, 1 if data else stride)
-    names = tuple(str(root) for root in data) or tuple(
-        f"rendered {name}" for name in dict.fromkeys(walk.building for walk in walks)
-    )
-    return Material(
-        describer, walks, collection, collection.bench(), names, (note,), seed, terminal
-    )
 
 
 def _train_and_test(preset: Preset, root: Path, seed: int, terminal: Terminal) -> ProtocolReport:
