@@ -173,10 +173,10 @@ def test_a_keyframe_that_fails_loses_nothing_before_it(
 
     insert = Mapper.insert
 
-    def failing(self, keyframe_id, *arguments):
-        if keyframe_id == keyframe:
+    def failing(self, inserted, *arguments):
+        if inserted.id == keyframe:
             raise np.linalg.LinAlgError("made to fail")
-        return insert(self, keyframe_id, *arguments)
+        return insert(self, inserted, *arguments)
 
     monkeypatch.setattr(Mapper, "insert", failing)
     out = tmp_path / "out"
