@@ -21,7 +21,7 @@ from slam.view import View
 FloatArray = NDArray[np.float64]
 
 # Keyframes in the making while tracking goes on.
-IN_FLIGHT = 2
+IN_FLIGHT = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Backend:
     """Makes keyframes in two threads, in order, and keeps a copy of the map to track by.
 
     What tracking sees changes only when it asks: with the n-th keyframe handed in, the results up
-    to the (n - 2)-th are taken in, whether or not more are there. So the outcome does not depend
+    to the (n - `IN_FLIGHT`)-th are taken in, whether or not more are there. So the outcome does not depend
     on which thread is faster.
 
     Attributes
