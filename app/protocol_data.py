@@ -13,13 +13,14 @@ from app.console import Terminal
 from app.protocol_sights import doorway_distances, sights, stretches_along
 from app.protocol_walks import Walk
 from semantics.classifier import PlaceClassifier
+from semantics.encoding import vectors_of
 from semantics.examples import Example
 from semantics.extraction import Described, describe_images
 from semantics.filter import count_transitions
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel, PlacePrediction
 from semantics.presets import Preset, preset
-from semantics.training import learn, threshold, vectors_of, walks_of
+from semantics.training import learn, threshold, walks_of
 from semantics.trials import Bench
 
 # Vectors of more images than this are left as they are: turning them would take longer.

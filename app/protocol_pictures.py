@@ -11,7 +11,7 @@ import numpy as np
 from datasets.files import replacing
 from semantics.calibration import rejection_curve, reliability
 from semantics.evaluation import LabelAccuracy
-from semantics.trials import Judgement
+from semantics.judgement import Judgement
 
 # Letters on a line beside a bar.
 _NAME_WIDTH = 24

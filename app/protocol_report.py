@@ -18,7 +18,8 @@ from semantics.calibration import (
     expected_calibration_error,
 )
 from semantics.evaluation import LabelAccuracy, compare_labels
-from semantics.trials import Judgement, Trial, per_class
+from semantics.judgement import Judgement
+from semantics.trials import Trial, per_class
 
 
 @dataclass(frozen=True, slots=True)

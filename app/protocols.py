@@ -19,6 +19,7 @@ from app.protocol_sights import route_positions
 from app.protocol_walks import SEEDS, STRIDE, data_walks
 from datasets.errors import RoomgraphError
 from semantics import trials
+from semantics.judgement import judge
 from semantics.presets import Preset
 from semantics.route import route_trials
 from semantics.trials import Trial
@@ -125,7 +126,7 @@ def _building(m: Material) -> ProtocolReport:
     judgement = None
     if len(buildings) > 2:
         with m.terminal.progress("Probabilities") as advance:
-            judgement = trials.judge(m.bench, lambda done, total: advance(done, total, ""))
+            judgement = judge(m.bench, lambda done, total: advance(done, total, ""))
     notes = (
         f"{PERMUTATIONS} permutations: half of the buildings and half of their images are learned, "
         "the other buildings tested, then back (the paper's Fig. 15).",

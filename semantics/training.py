@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import Counter
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from itertools import groupby
 from typing import Any
@@ -14,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semantics.classifier import PlaceClassifier
-from semantics.dense import DenseDescriptors, DenseSettings, describe_small
+from semantics.encoding import learn_encoder, sample_of, vectors_of
 from semantics.errors import SemanticsError
 from semantics.examples import Example, thin_out
 from semantics.extraction import Described, describe_images
 from semantics.filter import count_transitions
-from semantics.fisher import FisherEncoder
-from semantics.histogram import BagOfFeatures, normalise
+from semantics.histogram import BagOfFeatures
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import Lessons, PlaceModel
 from semantics.neural_gas import NeuralGas
@@ -30,9 +28,6 @@ from slam.features import FeatureSettings
 logger = logging.getLogger(__name__)
 
 Progress = Callable[[int, int], None]
-
-# The encoder is learned from so many dense descriptors of an image, of so many images at most.
-_DENSE_SAMPLE, _DENSE_IMAGES = 200, 500
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,9 +114,9 @@ def learn(
     images = Counter(d.example.label for d in usable)
     _check_labels(images)
     random = np.random.default_rng(seed)
-    sample = _sample([d.descriptors for d in usable], settings.max_descriptors, random)
+    sample = sample_of([d.descriptors for d in usable], settings.max_descriptors, random)
     gas = NeuralGas(settings.n_words, settings.n_epochs, random_state=random).fit(sample)
-    bag, encoder = BagOfFeatures(gas), _learn_encoder(usable, settings, random)
+    bag, encoder = BagOfFeatures(gas), learn_encoder(usable, settings, random)
     vectors, groups = vectors_of(usable, bag, encoder, settings), _groups(usable)
     truth = [d.example.label for d in usable]
     classifier = PlaceClassifier(settings.C, random_state=random).fit(vectors, truth, groups)
@@ -138,24 +133,6 @@ def learn(
         count_transitions(walks_of(usable), labels.names[1:]),
         _lessons(vectors, truth, groups, settings.lessons),
     )  # fmt: skip
-
-
-def vectors_of(
-    images: Sequence[Described],
-    bag: BagOfFeatures,
-    encoder: FisherEncoder | None,
-    settings: TrainingSettings,
-) -> NDArray[Any]:
-    """Return what the classifier sees of each image (N, D)."""
-    if encoder is None:
-        counts = np.array([bag.counts(image.descriptors) for image in images])
-        return normalise(counts, settings.normalisation)
-
-    def encode(image: Described) -> NDArray[np.float32]:
-        return encoder.encode(_densely(image, encoder.settings))
-
-    with ThreadPoolExecutor(settings.threads) as pool:
-        return np.array(list(pool.map(encode, images)))
 
 
 def is_usable(image: Described, settings: TrainingSettings) -> bool:
@@ -187,36 +164,6 @@ def _check_labels(images: Counter[str]) -> None:
         )  # fmt: skip
 
 
-def _densely(image: Described, settings: DenseSettings) -> DenseDescriptors:
-    if image.small is None:
-        raise SemanticsError("image was not kept", where=image.example.name)
-    return describe_small(image.small, settings)
-
-
-def _learn_encoder(
-    images: Sequence[Described], settings: TrainingSettings, random: np.random.Generator
-) -> FisherEncoder | None:
-    """Learn how images are described as a whole, from a few descriptors of each."""
-    if settings.encoding == "words":
-        return None
-    fisher = settings.fisher
-    chosen = np.linspace(0, len(images) - 1, min(_DENSE_IMAGES, len(images))).astype(int)
-    most = max(1, settings.max_descriptors // len(chosen))
-    parts = []
-    for image in (images[i] for i in chosen):
-        found = _densely(image, fisher.dense)
-        rows = random.integers(0, len(found), min(_DENSE_SAMPLE, most))
-        parts.append((found.descriptors[rows], found.positions[rows]))
-    sample = DenseDescriptors(
-        np.vstack([descriptors for descriptors, _ in parts]),
-        np.vstack([positions for _, positions in parts]),
-    )
-    return FisherEncoder.fit(
-        sample, fisher.dense, fisher.n_words, fisher.n_components, settings.n_epochs, random,
-        fisher.em_steps,
-    )  # fmt: skip
-
-
 def _groups(images: Sequence[Described]) -> list[str]:
     """Return what is held out together: whole sequences if every label is in two or more.
 
@@ -240,18 +187,3 @@ def threshold(classifier: PlaceClassifier, share: float) -> float:
     """Return the familiarity below which `share` of the held-out images lie."""
     known = classifier.familiarity_[np.isfinite(classifier.familiarity_)]
     return float(np.quantile(known, share)) if len(known) and share else 0.0
-
-
-def _sample(
-    descriptors: Sequence[NDArray[np.float32]], most: int, random: np.random.Generator
-) -> NDArray[np.float32]:
-    """Return at most `most` of the descriptors, drawn without replacement, in order."""
-    ends = np.cumsum([len(part) for part in descriptors])
-    if ends[-1] <= most:
-        return np.vstack(descriptors)
-    rows = np.sort(random.choice(int(ends[-1]), most, replace=False))
-    parts = np.split(rows, np.searchsorted(rows, ends[:-1]))
-    starts = ends - [len(part) for part in descriptors]
-    return np.vstack(
-        [part[r - start] for part, r, start in zip(descriptors, parts, starts, strict=True)]
-    )

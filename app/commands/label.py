@@ -44,7 +44,8 @@ def label(
 ) -> None:
     """Label images or a sequence; tell the accuracy where the truth is known.
 
-    Images are labelled one by one; the frames of a sequence by majority vote of their neighbours.
+    Images are labelled one by one; the frames of a sequence together with their neighbours, by a
+    hidden Markov model (or the paper's majority vote: semantics.labeller.method in --config).
 
     With --set, DATA is the folder of a run: its graph is corrected, the places' neighbours are
     inferred again, and with -o the model learns what the places look like, be they new to it.

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from semantics import trials
+from semantics.judgement import judge
 from semantics.trials import Bench
 
 
@@ -112,7 +113,7 @@ def test_another_building_is_never_learned_from(bench, monkeypatch):
 
 def test_probabilities_are_of_buildings_left_out(bench):
     calls = []
-    found = trials.judge(bench, lambda *n: calls.append(n))
+    found = judge(bench, lambda *n: calls.append(n))
     assert calls == [(i, 7) for i in range(1, 8)]
     np.testing.assert_allclose(found.probabilities.sum(axis=1), 1)
     right = np.array(found.classes)[found.probabilities.argmax(axis=1)] == found.truth
