@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass
+from functools import wraps
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
+
+if TYPE_CHECKING:
+    from app.config import AppSettings
+    from app.input import InputOptions
 
 SequenceArgument = Annotated[
     Path, typer.Argument(metavar="SEQUENCE", help="Folder of an RGB-D sequence.")
@@ -74,3 +82,76 @@ JsonOption = Annotated[
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
 VerboseOption = Annotated[bool, typer.Option("--verbose", help="Say what is going on inside.")]
+
+
+@dataclass(frozen=True, slots=True)
+class InputFlags:
+    """How a sequence is opened."""
+
+    dataset: DatasetOption = None
+    camera: CameraOption = None
+    depth_scale: DepthScaleOption = None
+    start: StartOption = 0
+    frames: FramesOption = None
+    stride: StrideOption = 1
+
+    def of(self, sequence: Path) -> InputOptions:
+        """Return how to open this sequence."""
+        from app.input import InputOptions
+
+        return InputOptions(
+            sequence=sequence, dataset=self.dataset, camera=self.camera,
+            depth_scale=self.depth_scale, start=self.start, frames=self.frames, stride=self.stride,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class SettingFlags:
+    """Where the settings come from."""
+
+    config: ConfigOption = None
+    max_depth: MaxDepthOption = None
+    seed: SeedOption = None
+
+    def load(self) -> AppSettings:
+        """Return the settings of the file under those given as flags."""
+        from app.config import load_settings
+
+        return load_settings(self.config, {"seed": self.seed, "slam.max_depth_m": self.max_depth})
+
+
+def grouped(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the fields of its parameters that are dataclasses as flags of their own."""
+    own = inspect.signature(command).parameters.values()
+    hints = get_type_hints(command, include_extras=True)
+    groups = {p.name: hints[p.name] for p in own if is_dataclass(hints[p.name])}
+    flags = []
+    for parameter in own:
+        if parameter.name in groups:
+            flags += _flags_of(groups[parameter.name])
+        else:
+            flags.append(
+                parameter.replace(annotation=hints[parameter.name], kind=parameter.KEYWORD_ONLY)
+            )
+
+    @wraps(command)
+    def run_command(**values: Any) -> None:
+        for name, group in groups.items():
+            given = {field.name: values.pop(field.name) for field in fields(group)}
+            values[name] = group(**given)
+        command(**values)
+
+    run_command.__annotations__ = {flag.name: flag.annotation for flag in flags}
+    run_command.__dict__["__signature__"] = inspect.Signature(flags)
+    return run_command
+
+
+def _flags_of(group: Any) -> list[inspect.Parameter]:
+    hints = get_type_hints(group, include_extras=True)
+    return [
+        inspect.Parameter(
+            field.name, inspect.Parameter.KEYWORD_ONLY, default=field.default,
+            annotation=hints[field.name],
+        )
+        for field in fields(group)
+    ]  # fmt: skip

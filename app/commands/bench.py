@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from app import options
 
+if TYPE_CHECKING:
+    from app.bench_worker import BenchJob
+    from app.console import Terminal
 
+
+@options.grouped
 def bench(
     sequences: Annotated[
         list[Path], typer.Argument(metavar="SEQUENCE", help="Folders of RGB-D sequences.")
@@ -27,9 +32,7 @@ def bench(
             show_default="once, forward",
         ),
     ] = 0,
-    json: Annotated[
-        bool, typer.Option("--json", help="Print JSON, and nothing else, on standard output.")
-    ] = False,
+    as_json: options.JsonOption = False,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -45,23 +48,17 @@ def bench(
             "--model", metavar="DIR", help="Place model; each is run without and with it."
         ),
     ] = None,
-    dataset: options.DatasetOption = None,
-    camera: options.CameraOption = None,
-    depth_scale: options.DepthScaleOption = None,
-    config: options.ConfigOption = None,
-    start: options.StartOption = 0,
-    frames: options.FramesOption = None,
-    stride: options.StrideOption = 1,
-    max_depth: options.MaxDepthOption = None,
-    seed: options.SeedOption = None,
+    *,
+    opening: options.InputFlags,
+    tuning: options.SettingFlags,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Measure what mapping sequences takes: time by stage, memory, accuracy.
+    """Measure what mapping sequences takes.
 
-    Each run has a process of its own and neither viewer nor recording. Told are medians over the
-    repeats, whether a frame costs more at the end of the run than at its beginning, and whether
-    all repeats gave the same trajectory to the byte.
+    Time by stage, memory, accuracy. Each run has a process of its own and neither viewer nor
+    recording. Told are medians over the repeats, whether a frame costs more at the end of the run
+    than at its beginning, and whether all repeats gave the same trajectory to the byte.
 
     Examples:
 
@@ -73,32 +70,32 @@ def bench(
 
       roomgraph bench kitchen --model places
     """
+    from app.bench_worker import BenchJob
+    from app.console import Terminal
+    from app.run_folder import clear_output
+
+    terminal = Terminal(quiet or as_json)
+    settings = tuning.load()
+    if output is not None:
+        clear_output(output, overwrite, ("bench.json",))
+    jobs = [
+        BenchJob(opening.of(path), settings, places, laps)
+        for path in sequences
+        for places in ((None, model) if model is not None else (None,))
+    ]
+    found = _measure(jobs, repeat, output, terminal)
+    if as_json:
+        typer.echo(found)
+
+
+def _measure(jobs: list[BenchJob], repeat: int, output: Path | None, terminal: Terminal) -> str:
+    """Run the jobs, show and write what they took, and return it as JSON."""
     from json import dumps
 
     from app.bench import frame_times, labelling_cost, report, run_all, summarise
     from app.bench_report import draw, table
-    from app.bench_worker import BenchJob
-    from app.config import load_settings
-    from app.console import Terminal
-    from app.input import InputOptions
-    from app.run_folder import clear_output
     from datasets.files import write_text
 
-    terminal = Terminal(quiet or json)
-    settings = load_settings(config, {"seed": seed, "slam.max_depth_m": max_depth})
-    if output is not None:
-        clear_output(output, overwrite, ("bench.json",))
-    jobs = [
-        BenchJob(
-            InputOptions(
-                sequence=path, dataset=dataset, camera=camera, depth_scale=depth_scale,
-                start=start, frames=frames, stride=stride,
-            ),
-            settings, places, laps,
-        )
-        for path in sequences
-        for places in ((None, model) if model is not None else (None,))
-    ]  # fmt: skip
     with terminal.progress("Measuring") as advance:
         runs = run_all(jobs, repeat, advance)
     summaries = [summarise(repeats, job) for repeats, job in zip(runs, jobs, strict=True)]
@@ -111,5 +108,4 @@ def bench(
         for number, repeats in enumerate(runs):
             draw(output / f"{number + 1}-{repeats[0].name}.png", repeats)
         terminal.say(f"Written to {output}")
-    if json:
-        typer.echo(dumps(found, indent=1))
+    return dumps(found, indent=1)

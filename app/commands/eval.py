@@ -57,7 +57,7 @@ def evaluate(
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Compare a run with the ground truth, or run an experiment of the paper.
+    """Compare a run with the truth; run experiments.
 
     Of a run: its trajectory (ATE, RPE) and labels. An experiment runs on rendered buildings (kept
     in a cache) or on --data: folders class/image, train and test folders of those, or sequences

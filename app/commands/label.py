@@ -42,7 +42,9 @@ def label(
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
 ) -> None:
-    """Label images or a sequence; tell the accuracy where the truth is known.
+    """Label images or a sequence; correct a run.
+
+    Tells the accuracy where the truth is known.
 
     Images are labelled one by one; the frames of a sequence together with their neighbours, by a
     hidden Markov model (or the paper's majority vote: semantics.labeller.method in --config).

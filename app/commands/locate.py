@@ -10,6 +10,7 @@ import typer
 from app import options
 
 
+@options.grouped
 def locate(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     image: Annotated[
@@ -18,21 +19,19 @@ def locate(
     depth: Annotated[
         Path | None, typer.Argument(metavar="DEPTH", help="Depth of the image, if known.")
     ] = None,
-    camera: options.CameraOption = None,
-    depth_scale: options.DepthScaleOption = None,
-    start: options.StartOption = 0,
-    frames: options.FramesOption = None,
-    stride: options.StrideOption = 1,
     speak: Annotated[
         bool, typer.Option("--speak", help="Say it aloud too, with espeak-ng where it is there.")
     ] = False,
     as_json: options.JsonOption = False,
+    *,
+    opening: options.InputFlags,
 ) -> None:
-    """Say in which place of a map an image was taken, how sure that is, and the pose.
+    """Say where in a map an image was taken.
 
-    The pose is measured against the map's features; the depth of the image makes it surer but
-    need not be known. Of a sequence only what changes is said: "you are entering office 2" once
-    the answer has held for 5 frames, "you are in office 2" every 10 seconds.
+    In which place, how sure that is, and the pose. The pose is measured against the map's features;
+    the depth of the image makes it surer but need not be known. Of a sequence only what changes is
+    said: "you are entering office 2" once the answer has held for 5 frames, "you are in office 2"
+    every 10 seconds.
 
     \b
     Examples:
@@ -40,7 +39,6 @@ def locate(
       roomgraph locate out rgb/12.5.png depth/12.5.png --json
       roomgraph locate out second_walk/ --speak
     """  # noqa: D301
-    from app.input import InputOptions
     from app.locating import Locator
     from app.prompts import answer
     from app.queries import is_sequence, queries
@@ -48,10 +46,7 @@ def locate(
 
     folder = RunFolder(run)
     locator = Locator(folder)
-    source = InputOptions(
-        sequence=image, camera=camera, depth_scale=depth_scale,
-        start=start, frames=frames, stride=stride,
-    )  # fmt: skip
+    source = opening.of(image)
     answers = (
         (query, locator.locate(query.frame))
         for query in queries(source, depth, folder.read_camera() or locator.camera)

@@ -14,7 +14,9 @@ def places(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     as_json: options.JsonOption = False,
 ) -> None:
-    """Say what is in a map: its places, how sure, how large, when visited.
+    """Say what is in a map.
+
+    Its places: how sure their labels are, how large they are, when they were visited.
 
     \b
     Examples:

@@ -14,7 +14,9 @@ def report(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     quiet: options.QuietOption = False,
 ) -> None:
-    """Make report.html and the floor plan of a run again, from the files in its folder.
+    """Make a run's report and floor plan again.
+
+    From the files in its folder: report.html, floorplan.svg and floorplan.png.
 
     Examples:
 

@@ -16,7 +16,9 @@ def route(
     goal: Annotated[str, typer.Argument(metavar="TO", help="Where to.")],
     as_json: options.JsonOption = False,
 ) -> None:
-    """Say the shortest way from one place to another: rooms, doors, metres.
+    """Say the way from one place to another.
+
+    The shortest one: rooms, doors, metres.
 
     FROM and TO are a place (office1: its middle), a label (kitchen: the nearest of them), or
     coordinates in metres (x,y on the floor of map.yaml, or x,y,z in the trajectory's world).

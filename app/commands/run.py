@@ -5,22 +5,17 @@ from __future__ import annotations
 from app import options
 
 
+@options.grouped
 def run(
     sequence: options.SequenceArgument,
     output: options.OutputOption = None,
-    dataset: options.DatasetOption = None,
-    camera: options.CameraOption = None,
-    depth_scale: options.DepthScaleOption = None,
     model: options.ModelOption = None,
-    config: options.ConfigOption = None,
-    start: options.StartOption = 0,
-    frames: options.FramesOption = None,
-    stride: options.StrideOption = 1,
-    max_depth: options.MaxDepthOption = None,
+    *,
+    opening: options.InputFlags,
+    tuning: options.SettingFlags,
     visualize: options.VisualizeOption = False,
     save_rrd: options.SaveRrdOption = True,
     report: options.ReportOption = True,
-    seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
@@ -39,19 +34,13 @@ def run(
 
       roomgraph run frames/ --dataset folder --camera camera.json --depth-scale 1000
     """
-    from app.config import load_settings
     from app.console import Terminal
-    from app.input import InputOptions
     from app.report import summary
     from app.session import Showing, map_sequence
     from semantics.model_io import load_model
 
     terminal = Terminal(quiet, verbose)
-    settings = load_settings(config, {"seed": seed, "slam.max_depth_m": max_depth})
-    source = InputOptions(
-        sequence=sequence, dataset=dataset, camera=camera, depth_scale=depth_scale,
-        start=start, frames=frames, stride=stride,
-    )  # fmt: skip
+    settings, source = tuning.load(), opening.of(sequence)
     opened = source.open()
     places = load_model(model) if model is not None else None
     folder, metrics = map_sequence(

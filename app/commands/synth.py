@@ -29,9 +29,10 @@ def synth(
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Render a walk through a made-up office floor, with exact poses and room labels.
+    """Render a walk through a made-up office floor.
 
-    Writes a TUM sequence: rgb/, depth/, camera.json, groundtruth.txt and places.csv.
+    With exact poses and room labels. Writes a TUM sequence: rgb/, depth/, camera.json,
+    groundtruth.txt and places.csv.
 
     Examples:
 

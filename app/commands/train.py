@@ -30,10 +30,10 @@ def train(
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
 ) -> None:
-    """Learn visual words and a place classifier from labelled images.
+    """Learn places from labelled images or sequences.
 
-    Each DATA is a folder with a subfolder of images for each class, or an RGB-D sequence with a
-    places.csv (timestamp,label).
+    Visual words and a classifier. Each DATA is a folder with a subfolder of images for each class,
+    or an RGB-D sequence with a places.csv (timestamp,label).
 
     Examples:
 

@@ -1,9 +1,12 @@
 """How a sequence was opened is remembered with the run."""
 
+import inspect
 import shutil
+from pathlib import Path
 
 import pytest
 
+from app import options
 from app.config import AppSettings, load_settings
 from app.errors import AppError
 from app.input import InputOptions, read_input, write_input
@@ -13,8 +16,8 @@ from tests.app.command import roomgraph
 
 def test_options_survive_the_disk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    options = InputOptions(sequence="walk", camera="c.json", depth_scale=1000, start=3, stride=2)
-    write_input(tmp_path / "input.toml", options)
+    chosen = InputOptions(sequence="walk", camera="c.json", depth_scale=1000, start=3, stride=2)
+    write_input(tmp_path / "input.toml", chosen)
     read = read_input(tmp_path / "input.toml")
     assert read.sequence == tmp_path / "walk"
     assert read.camera == tmp_path / "c.json"
@@ -56,3 +59,23 @@ def test_settings_of_another_version_do_not_keep_a_run_from_being_read(tmp_path)
     settings = load_settings(path, only=["seed", "slam.features", "slam.noise", "seed.none"])
     assert (settings.seed, settings.slam.features.max_features) == (4, 77)
     assert settings.slam.noise == AppSettings().slam.noise
+
+
+def test_flags_that_go_together_are_flags_of_their_own():
+    got = {}
+
+    @options.grouped
+    def command(
+        sequence: Path, *, opening: options.InputFlags, tuning: options.SettingFlags,
+        quiet: bool = False,
+    ) -> None:  # fmt: skip
+        got.update(input=opening.of(sequence), settings=tuning.load(), quiet=quiet)
+
+    names = list(inspect.signature(command).parameters)
+    assert names[:3] == ["sequence", "dataset", "camera"]
+    assert names[-4:] == ["config", "max_depth", "seed", "quiet"]
+    values = {name: p.default for name, p in inspect.signature(command).parameters.items()}
+    command(**values | {"sequence": Path("walk"), "stride": 3, "max_depth": 2.5, "seed": 9})
+    assert got["input"] == InputOptions(sequence=Path("walk"), stride=3)
+    assert (got["settings"].slam.max_depth_m, got["settings"].seed) == (2.5, 9)
+    assert got["quiet"] is False
