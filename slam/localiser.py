@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from datasets import poses
 from slam.estimate import Estimate, inverted
 from slam.flow import FlowTracker, Template
+from slam.leaning import SurfaceLeaning
 from slam.local_map import LocalMap
 from slam.prediction import MotionModel
 from slam.textureless import DepthOdometry
@@ -30,6 +31,8 @@ class Localiser:
         The three means, in the order in which they are tried.
     motion : MotionModel
         What to expect, and what to hold on to where a view leaves something open.
+    leaning : SurfaceLeaning
+        What improves poses that few features hold.
     T_world_keyframe : callable
         Returns the poses known now, by keyframe id.
     around : callable
@@ -42,10 +45,12 @@ class Localiser:
         tracker: Tracker,
         depth: DepthOdometry,
         motion: MotionModel,
+        leaning: SurfaceLeaning,
         T_world_keyframe: Callable[[], Mapping[int, FloatArray]],
         around: Callable[[int], LocalMap],
     ) -> None:
-        self.flow, self.tracker, self.depth, self.motion = flow, tracker, depth, motion
+        self.flow, self.tracker, self.depth = flow, tracker, depth
+        self.motion, self.leaning = motion, leaning
         self._T_world_keyframe, self._around = T_world_keyframe, around
         self._template: Template | None = None
         self._template_covariance: FloatArray = np.zeros((6, 6))
@@ -64,7 +69,7 @@ class Localiser:
         if seen is None and view.has_depth:
             seen = self._by_features(view) or self._by_flow_from_last(view)
         if seen is not None:
-            return self._held(view, seen)
+            return self._held(view, self.leaning.lean(view.frame, seen))
         return self._by_depth(view) if view.has_depth else None
 
     def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
@@ -84,6 +89,8 @@ class Localiser:
         self._covariance = np.zeros((6, 6)) if estimate is None else estimate.covariance
         if estimate is None or estimate.method != "depth":
             self.depth.forget()
+        if estimate is None:
+            self.leaning.rest_on(anchor.keyframe, view.frame)
         self._last, self._last_view = anchor, view
 
     def follow(self, view: View, anchor: Anchor) -> Template:

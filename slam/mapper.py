@@ -40,6 +40,10 @@ class KeyframeSettings(Settings):
     min_followed: float = Field(
         0.5, gt=0, le=1, description="of the corners of the template, the least still followed"
     )
+    min_change: float = Field(
+        0.25, ge=0, le=1,
+        description="of what turn, way or overlap make a keyframe, the least where little is found",
+    )  # fmt: skip
     max_baseline_share: float = Field(
         0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
     )

@@ -55,8 +55,11 @@ class MotionModel:
         self._squares: FloatArray | None = None
 
     def moved(self, T_now_last: FloatArray, seconds: float) -> None:
-        """Take in the latest step (4, 4) and how long it took."""
-        self._T_now_last, self._step_s = T_now_last, seconds
+        """Take in the latest step (4, 4) and how long it took.
+
+        It feeds the next one: left alone, rounding errors would double with each frame.
+        """
+        self._T_now_last, self._step_s = poses.orthonormal(T_now_last), seconds
 
     def stand_still(self) -> None:
         """Predict no motion: what it was is not known any more."""

@@ -19,6 +19,7 @@ from slam.flow import FlowSettings, FlowTracker
 from slam.ground import GroundSettings
 from slam.icp import IcpSettings
 from slam.keyframe import Keyframe
+from slam.leaning import LeaningSettings, SurfaceLeaning
 from slam.linker import Linker
 from slam.local_map import LocalMap
 from slam.localiser import Localiser, estimate_of
@@ -75,6 +76,7 @@ class SlamSettings(Settings):
     loops: LoopSettings = LoopSettings()
     appearance: AppearanceSettings = AppearanceSettings()
     pose_graph: PoseGraphSettings = PoseGraphSettings()
+    leaning: LeaningSettings = LeaningSettings()
     textureless: TexturelessSettings = TexturelessSettings()
     loss: LossSettings = LossSettings()
     map: MapSettings = MapSettings()
@@ -116,7 +118,7 @@ class Slam:
         )
         self._localiser = Localiser(
             FlowTracker(settings.flow, settings.noise), self._tracker, depth,
-            MotionModel(settings.prediction),
+            MotionModel(settings.prediction), SurfaceLeaning(settings.leaning, settings.noise),
             lambda: self._backend.poses, self._around,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
@@ -311,22 +313,27 @@ class Slam:
         if not view.has_depth:
             return False
         settings, T = self.settings.keyframes, estimate.T_camera_reference
-        turned = np.degrees(poses.rotation_angle(T)) > settings.max_angle_deg
+        way = float(np.linalg.norm(T[:3, 3]))
+        change = float(np.degrees(poses.rotation_angle(T))) / settings.max_angle_deg
         if estimate.method == "depth" or not len(self._outline):
-            return bool(turned or np.linalg.norm(T[:3, 3]) > self.settings.textureless.keyframe_m)
+            return bool(max(change, way / self.settings.textureless.keyframe_m) > 1)
         moved = poses.transform(T, self._outline)
         ahead = moved[moved[:, 2] > 0.1]
         pixels = view.frame.intrinsics.project(ahead)
         size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
         overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / len(self._outline)
         depth = float(np.median(self._outline[:, 2]))
-        return bool(
-            turned
-            or overlap < settings.min_overlap
-            or estimate.support
-            < (settings.min_followed if estimate.method == "flow" else settings.min_explained)
-            or np.linalg.norm(T[:3, 3]) > settings.max_baseline_share * depth
+        change = max(
+            change,
+            way / (settings.max_baseline_share * depth),
+            (1 - overlap) / max(1 - settings.min_overlap, 1e-6),
         )
+        if estimate.method == "flow":
+            return bool(change > 1 or estimate.support < settings.min_followed)
+        # Features that are not found again without a change of place are blurred, or mere noise:
+        # those of a new keyframe would be no better.
+        poor = estimate.support < settings.min_explained
+        return bool(change > (settings.min_change if poor else 1))
 
     def _report(
         self,

@@ -139,7 +139,8 @@ class DepthOdometry:
         if self._kiss is None:
             self._kiss = self._start()
         start = np.array(self._kiss.last_pose)
-        self._kiss.last_delta = poses.inverse(T_camera_last)
+        # Sophus ends the whole process over a rotation that rounding has bent.
+        self._kiss.last_delta = poses.orthonormal(poses.inverse(T_camera_last))
         self._kiss.register_frame(cloud, np.array([]))
         return np.asarray(poses.inverse(np.array(self._kiss.last_pose)) @ start)
 

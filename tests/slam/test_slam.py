@@ -144,3 +144,21 @@ def test_map_lies_on_the_rooms_surfaces(tracked):
     world = poses.transform(slam.pose_of(trackings[30].anchor), seen)
     distance, _ = cKDTree(points.points_world).query(world)
     assert np.median(distance) < 0.03
+
+
+def test_noise_for_features_makes_no_keyframes_of_a_camera_at_rest(rendered_sequence):
+    """What is not found again without a change of place would not be by a new keyframe."""
+    rng = np.random.default_rng(0)
+    first = rendered_sequence[0]
+
+    def flickering(index):
+        noise = rng.normal(0, 25, first.colour.shape)
+        colour = np.clip(first.colour + noise, 0, 255).astype(np.uint8)
+        return Frame(index, index / 30, colour, first.depth, first.intrinsics)
+
+    # Features alone: corners could be followed all the same.
+    settings = SlamSettings.model_validate({"flow": {"enabled": False}})
+    slam = Slam(settings)
+    trackings = [slam.process(flickering(i)) for i in range(10)]
+    assert all(t.state is TrackingState.OK for t in trackings)
+    assert sum(t.is_keyframe for t in trackings) == 1
