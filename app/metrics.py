@@ -60,6 +60,7 @@ def run_metrics(
         **memory_metrics(slam, points),
         "graph_nodes": len(graph.nodes),
         "graph_edges": len(graph.edges),
+        "labels": list(graph.labels.names[1:]),
         "places": list(graph.places),
         "warnings": list(warnings),
     }

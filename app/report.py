@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from rich.table import Table
@@ -29,18 +29,22 @@ def summary(metrics: Mapping[str, Any]) -> Table:
     )  # fmt: skip
     table.add_row("map", f"{metrics['map_points']:,} points")
     table.add_row("graph", f"{metrics['graph_nodes']} nodes, {metrics['graph_edges']} edges")
-    table.add_row("places", _places(metrics["places"]))
+    table.add_row("places", _places(metrics))
     for row in _truth_rows(metrics):
         table.add_row(*row)
     return table
 
 
-def _places(places: Sequence[str]) -> str:
+def _places(metrics: Mapping[str, Any]) -> str:
+    places, labels = metrics["places"], metrics.get("labels", ())
+    why = "not labelled (a model from `roomgraph train` does: --model)"
+    if labels:
+        why = f"none looks like what the model knows: {', '.join(labels)}"
     found = set(places) - {UNKNOWN}
     if not found:
-        return "not labelled (a model from `roomgraph train` does: --model)"
+        return why
     if all(place.removeprefix(UNLABELLED).isdigit() for place in found):
-        return f"{len(found)}, not labelled (a model from `roomgraph train` does: --model)"
+        return f"{len(found)}, {why}"
     return ", ".join(places)
 
 

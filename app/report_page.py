@@ -150,6 +150,10 @@ def _warnings(graph: SemanticGraph, metrics: Mapping[str, Any]) -> list[str]:
         found.append(
             "places are not labelled: no place model was given (`roomgraph train` makes one)"
         )
+    elif graph.nodes and not any(node.label_id for node in graph.nodes):
+        found.append(
+            f"no place looks like what the model knows: {', '.join(graph.labels.names[1:])}"
+        )
     return found
 
 

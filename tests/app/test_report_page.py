@@ -1,5 +1,7 @@
 """The report and the floor plan of a run, as files that a browser opens without a network."""
 
+import io
+import json
 import re
 import shutil
 import xml.etree.ElementTree as ET
@@ -9,9 +11,11 @@ from html.parser import HTMLParser
 import cv2
 import numpy as np
 import pytest
+from rich.console import Console
 
 from app.errors import AppError
 from app.floor_lines import doorway_ends
+from app.report import summary
 from app.report_evidence import place_reasons
 from app.report_page import found_words, write_report
 from app.run_folder import RunFolder
@@ -187,3 +191,30 @@ def test_thumbnails_come_back(tmp_path, rng):
     path.write_bytes(path.read_bytes()[:100])
     with pytest.raises(AppError, match="thumbnails"):
         read_thumbnails(path)
+
+
+def _summary_words(metrics):
+    console = Console(width=200, file=io.StringIO())
+    console.print(summary(metrics))
+    return console.file.getvalue()
+
+
+def test_places_without_labels_are_told_why(mapped):
+    metrics = RunFolder(mapped[1]).read_metrics()
+    assert "corridor1" in _summary_words(metrics)
+    unnamed = metrics | {"places": ["room1", "room2"]}
+    known = ", ".join(metrics["labels"])
+    assert f"2, none looks like what the model knows: {known}" in _summary_words(unnamed)
+    assert "2, not labelled (a model" in _summary_words(unnamed | {"labels": []})
+    assert "not labelled (a model" in _summary_words(unnamed | {"labels": [], "places": []})
+
+
+def test_a_model_that_knows_no_place_is_a_warning(mapped, tmp_path):
+    copy = tmp_path / "run"
+    shutil.copytree(mapped[1], copy)
+    content = json.loads((copy / "graph.json").read_text())
+    for node in content["nodes"]:
+        node |= {"label": "unknown", "label_id": 0}
+    (copy / "graph.json").write_text(json.dumps(content))
+    write_report(RunFolder(copy))
+    assert any("no place looks like what the model knows" in words for words in page_of(copy).words)
