@@ -17,6 +17,8 @@ from semantics.judgement import Judgement
 _NAME_WIDTH = 24
 # A few bars are drawn no thicker than so many would be.
 _FEWEST_BARS = 5
+# The figure stands inside bars longer than this, percent.
+_ROOM_FOR_FIGURE = 15
 
 
 def draw(
@@ -58,9 +60,12 @@ def _draw_rows(axis: Any, content: dict[str, Any]) -> None:
         color="#4e79a7", ecolor="0.3", capsize=3,
     )  # fmt: skip
     for bar, row in zip(bars, rows, strict=True):
+        share = 100 * row["accuracy_mean"]
+        is_long = share > _ROOM_FOR_FIGURE
         axis.text(
-            2, bar.get_y() + bar.get_height() / 2, f"{row['accuracy_mean']:.1%}", va="center",
-            color="white", fontsize=8,
+            2 if is_long else share + 100 * row["accuracy_std"] + 2,
+            bar.get_y() + bar.get_height() / 2, f"{row['accuracy_mean']:.1%}", va="center",
+            color="white" if is_long else "0.2", fontsize=8,
         )  # fmt: skip
     middle, half = (len(rows) - 1) / 2, max(len(rows), _FEWEST_BARS) / 2
     axis.set(xlim=(0, 104), xlabel="images right (%)", ylim=(middle - half, middle + half))

@@ -144,9 +144,11 @@ def _route(m: Material) -> ProtocolReport:
     routes = [walk for walk in m.walks if walk.light == "day"] or m.walks[-1:]
     found: list[Trial] = []
     runs: list[FinishedRun] = []
+    strange: set[str] = set()
     for done, walk in enumerate(routes, 1):
         images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
         model = m.model_without(walk.building)
+        strange |= {image.example.label for image in images} - set(model.labels.names)
         found += route_trials(
             model, m.describer.predictions(model, images),
             [image.example.label for image in images],
@@ -163,6 +165,8 @@ def _route(m: Material) -> ProtocolReport:
         "Filter: a hidden Markov model with the delay of the vote, as by default. Smoothed: "
         "beliefs propagated over the finished graph.",
     ]
+    if strange:
+        notes.append(f"Nobody taught the model what this is: {', '.join(sorted(strange))}.")
     figures = {}
     if runs:
         figures = {

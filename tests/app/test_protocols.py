@@ -71,6 +71,8 @@ def test_route_along_a_rendered_walk(rendered_walk, photos, tmp_path, monkeypatc
     assert rows[-1]["name"] == "nodes, finished run"
     assert 2 <= rows[-1]["images"] < 20
     assert content["rooms"] >= content["rooms_told_apart"] >= 0
+    # The photographs show other kinds of place than the walk.
+    assert any("Nobody taught" in note and "elevator_area" in note for note in content["notes"])
 
 
 def test_vocabulary(photos, tmp_path, monkeypatch):
