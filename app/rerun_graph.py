@@ -104,9 +104,8 @@ def _plan(
     """Draw every node as a dot, but those in the places' middles by the places' names."""
     names = {node: place for place, node in spots.items()}
     ids = [str(node.id) for node in graph.nodes]
-    colours = [
-        _readable(_colour(graph, i)) if i in names else _colour(graph, i) for i in range(len(ids))
-    ]
+    # Of full strength: in a browser the ground may be light.
+    colours = [_colour(graph, i) for i in range(len(ids))]
     nodes = rr.GraphNodes(
         ids, positions=_laid_out(graph, axes), radii=5.0, colors=colours,
         labels=[names.get(i, _DOT) for i in range(len(ids))], show_labels=True,
