@@ -119,8 +119,12 @@ def test_the_table_has_every_frame(run, tmp_path, monkeypatch):
 def test_pose_graph_in_gtsam(run, export):
     import gtsam
 
-    _, values = gtsam.readG2o(str(export("g2o")), True)
+    factors, values = gtsam.readG2o(str(export("g2o")), True)
     assert values.size() == run.read_metrics()["keyframes"]
+    keys = values.keys()
+    poses_read = np.array([values.atPose3(key).matrix() for key in keys])
+    assert np.allclose(poses_read, read_tum(run.keyframes).T_world_camera, atol=1e-4)
+    assert factors.size() >= values.size() - 1
 
 
 @pytest.mark.parametrize("name", ["ply", "pcd"])
@@ -215,6 +219,15 @@ def test_graphs_in_networkx_and_pydot(run, export):
     assert {tuple(sorted(e)) for e in node_link.edges} == edges
     assert {tuple(sorted(e)) for e in graphml.edges} == edges
     assert {(int(e.get_source()), int(e.get_destination())) for e in dot.get_edges()} == edges
+    for node in graph.nodes:
+        linked, drawn = node_link.nodes[node.id], graphml.nodes[node.id]
+        assert (linked["label"], linked["place"]) == (node.label, node.place)
+        assert (drawn["label"], drawn["place"]) == (node.label, node.place)
+        assert np.allclose(linked["position"], node.position_world, atol=1e-6)
+        assert np.allclose([drawn[axis] for axis in "xyz"], node.position_world, atol=1e-6)
+    lengths = {(e.source, e.target): e.length_m for e in graph.edges}
+    for a, b, values in graphml.edges(data=True):
+        assert values["length"] == pytest.approx(lengths[min(a, b), max(a, b)], abs=1e-6)
     named = {int(n.get_name()): n.get_label().strip('"') for n in dot.get_nodes() if n.get_label()}
     assert named == {node.id: node.place for node in graph.nodes}
 
