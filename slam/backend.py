@@ -38,8 +38,8 @@ class Backend:
     """Makes keyframes in two threads, in order, and keeps a copy of the map to track by.
 
     What tracking sees changes only when it asks: with the n-th keyframe handed in, the results up
-    to the (n - `IN_FLIGHT`)-th are taken in, whether or not more are there. So the outcome does not depend
-    on which thread is faster.
+    to the (n - `IN_FLIGHT`)-th are taken in, whether or not more are there. So the outcome does
+    not depend on which thread is faster.
 
     Attributes
     ----------

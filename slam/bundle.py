@@ -75,9 +75,9 @@ def adjust(
 ) -> Adjusted:
     """Move cameras and landmarks to where the observations fit best.
 
-    Gauss-Newton on two pixels and an inverse depth an observation, with Cauchy's kernel; landmarks
-    are eliminated first (Schur complement; Triggs et al., 2000, section 6.1), so that the system
-    solved is as large as the cameras are many.
+    Gauss-Newton on two pixels and an inverse depth an observation, with Geman and McClure's
+    kernel; landmarks are eliminated first (Schur complement; Triggs et al., 2000, section 6.1),
+    so that the system solved is as large as the cameras are many.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ class _System:
         local = self._in_cameras(T, points)
         residual, J = residuals(local, self.seen.pixels, self.seen.depths, self.intrinsics)
         error = (self._inverse_variance * residual**2).sum(axis=0)
-        weight = self._inverse_variance / (1.0 + error / CHI2_95)
+        weight = self._inverse_variance / (1.0 + error / CHI2_95) ** 2
         cameras = int(self.is_free.sum())
         H, g = np.zeros((cameras, 6, cameras, 6)), np.zeros((cameras, 6))
         # Of each landmark: its Hessian, its gradient.

@@ -50,11 +50,14 @@ class Located:
         The pose, ``T_camera_reference``, and its information.
     matches : (N, 2) int
         Points of the local map and features of the view that agree.
+    agreement : float
+        Their share of all pairs that were found.
     """
 
     local_map: LocalMap
     motion: RefinedMotion
     matches: Matches
+    agreement: float
 
     @property
     def inliers(self) -> int:
@@ -80,14 +83,22 @@ class Tracker:
     ) -> Located | None:
         """Return the view's pose, or None if too few features agree on one.
 
-        Points are first looked for where `T_camera_reference`, the prediction, puts them; if that
-        fails, or without a prediction, everywhere.
+        Points are first looked for where `T_camera_reference`, the prediction, puts them. Where
+        few agree, or less than half of what is found, the prediction may be off by a period of
+        what is seen (tiles, slats), and they are looked for everywhere as well.
         """
+        settings, guided = self.settings, None
         if T_camera_reference is not None:
-            found = self.guided(view, around, T_camera_reference)
-            if found is not None and found.inliers >= self.settings.guided_inliers:
-                return found
-        return self.locate(view, around)
+            guided = self.guided(view, around, T_camera_reference)
+            if guided is not None and guided.inliers >= settings.guided_inliers:
+                if guided.agreement >= settings.guided_share:
+                    return guided
+            else:
+                guided = None
+        found = self.locate(view, around)
+        if guided is None or (found is not None and found.inliers > guided.inliers):
+            return found
+        return guided
 
     def locate(self, view: View, around: LocalMap) -> Located | None:
         """Return the view's pose by matching all features, the reference keyframe's first."""
@@ -126,7 +137,7 @@ class Tracker:
         found = correspondences(around.points, view, pairs)
         fine = refine_motion(T_camera_reference, found, intrinsics, self.noise, width=0.25 * radius)
         if fine.count >= max(self.settings.min_inliers, self.settings.guided_share * len(pairs)):
-            return Located(around, fine, pairs[fine.inliers])
+            return _located(around, fine, pairs)
         return self._solve(view, around, pairs)
 
     def _solve(self, view: View, around: LocalMap, pairs: Matches) -> Located | None:
@@ -138,7 +149,11 @@ class Tracker:
             return None
         fine = refine_motion(coarse.T_camera_reference, found, view.frame.intrinsics, self.noise)
         enough = max(self.settings.min_inliers, self.settings.min_share * len(pairs))
-        return Located(around, fine, pairs[fine.inliers]) if fine.count >= enough else None
+        return _located(around, fine, pairs) if fine.count >= enough else None
+
+
+def _located(around: LocalMap, motion: RefinedMotion, pairs: Matches) -> Located:
+    return Located(around, motion, pairs[motion.inliers], motion.count / len(pairs))
 
 
 def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspondences:

@@ -100,6 +100,7 @@ def mapped(rendered_walk):
     slam = Slam(SlamSettings())
     for index in range(0, len(walk), 2):
         slam.process(walk[index])
+    slam.finish()
     memory = remember(slam.keyframes.values(), slam.keyframe_poses)
     return slam, walk, memory
 

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from datasets import poses
-from slam.motion import MotionSettings, estimate_motion, procrustes
+from slam.motion import Correspondences, MotionSettings, estimate_motion, procrustes
 from slam.refine import refine_motion
 
 from .helpers import CAMERA, NOISE, correspondences, motion_error, small_motion
@@ -88,3 +88,24 @@ def test_refinement_works_without_any_second_depth(rng):
     blind = type(found)(found.points, found.pixels, np.full(len(found), np.nan))
     refined = refine_motion(small_motion(rng, 0.02, 0.01) @ T, blind, CAMERA, NOISE, 20)
     assert motion_error(refined.T_camera_reference, T) < (1e-4, 1e-4)
+
+
+def test_a_pattern_mistaken_by_one_period_hardly_pulls(rng):
+    T = poses.exponential(np.array([0.0, 0.03, 0.0, 0.1, 0.0, 0.05]))
+    alone, pulled = [], []
+    for _ in range(20):
+        # A wall far off in a narrow view: turning and stepping aside look alike.
+        pixels = rng.uniform((150, 100), (490, 380), (240, 2))
+        points = CAMERA.backproject(pixels, 3.0 + 0.2 * rng.random(240))
+        moved = poses.transform(T, points)
+        seen = CAMERA.project(moved) + rng.normal(0, 0.5, (240, 2))
+        seen[140:, 0] += 9.0
+        depths = moved[:, 2] + NOISE.depth_sigma(moved[:, 2]) * rng.normal(size=240)
+        found = Correspondences(points, seen, depths)
+        both = refine_motion(T, found, CAMERA, NOISE)
+        assert both.inliers[:140].mean() > 0.9
+        assert not both.inliers[140:].any()
+        right = refine_motion(T, found.take(np.arange(140)), CAMERA, NOISE)
+        pulled.append(motion_error(both.T_camera_reference, T)[0])
+        alone.append(motion_error(right.T_camera_reference, T)[0])
+    assert np.mean(pulled) < 1.2 * np.mean(alone)
