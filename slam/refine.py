@@ -17,6 +17,10 @@ FloatArray = NDArray[np.float64]
 # 95 % of a chi-square with three degrees of freedom: two pixels and an inverse depth.
 CHI2_95 = 7.81
 NO_READING = 1e3
+# Robust kernels, as the powers of (1 + e / c) that they divide by.
+CAUCHY, GEMAN_MCCLURE = 1, 2
+# Metres and radians: steps as small as this.
+NEARLY_AT_REST, AT_REST = 1e-3, 1e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +52,17 @@ def refine_motion(
     found: Correspondences,
     intrinsics: Intrinsics,
     noise: SensorNoise,
-    iterations: int = 10,
+    iterations: int = 12,
     width: float = 1.0,
 ) -> RefinedMotion:
     """Improve a motion by iteratively reweighted Gauss-Newton.
 
     Each correspondence has three residuals: two pixels and an inverse depth. Their covariance is
     the camera's noise plus that of the reference depth, carried through the projection, so a
-    point measured from afar counts as little along its ray as it should. Geman and McClure's
-    kernel tames the wrong matches: a whole pattern mistaken by one period pulls hardly at all,
-    where Cauchy's kernel gives way by centimetres.
+    point measured from afar counts as little along its ray as it should. Cauchy's kernel tames
+    the wrong matches; once at rest, Geman and McClure's takes its place, to which a pattern
+    mistaken by one period means hardly anything. From the beginning that would cling to
+    whatever few matches are near.
 
     Parameters
     ----------
@@ -71,15 +76,22 @@ def refine_motion(
     """
     T = T_camera_reference
     spread = found.points * (noise.depth_sigma(found.points[:, 2]) / found.points[:, 2])[:, None]
+    power = CAUCHY
     for _ in range(iterations):
         local = poses.transform(T, found.points)
         residual, J = residuals(local, found.pixels, found.depths, intrinsics)
-        error, H, g = _normal_equations(T, residual, J, spread, found, noise, CHI2_95 * width**2)
+        error, H, g = _normal_equations(
+            T, residual, J, spread, found, noise, CHI2_95 * width**2, power
+        )
         step = -np.asarray(np.linalg.solve(H + 1e-6 * np.eye(6), g), np.float64)
         T = poses.exponential(step) @ T
-        if width == 1.0 and np.abs(step).max() < 1e-5:
+        length = np.abs(step).max()
+        if width > 1.0:
+            width = max(1.0, width / 2)
+        elif power == CAUCHY and length < NEARLY_AT_REST:
+            power = GEMAN_MCCLURE
+        elif length < AT_REST:
             break
-        width = max(1.0, width / 2)
     local = poses.transform(T, found.points)
     residual, J = residuals(local, found.pixels, found.depths, intrinsics)
     error, _, _ = _normal_equations(T, residual, J, spread, found, noise, np.inf)
@@ -131,8 +143,9 @@ def _normal_equations(
     found: Correspondences,
     noise: SensorNoise,
     bound: float,
+    power: int = CAUCHY,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weigh the residuals (3, N) by their covariances and by Geman and McClure's kernel.
+    """Weigh the residuals (3, N) by their covariances and by a robust kernel.
 
     The inverse covariance is a diagonal less one column times itself (Sherman & Morrison), so the
     sums are two matrix products.
@@ -142,7 +155,9 @@ def _normal_equations(
     spread : (N, 3) float64
         The standard deviations of the reference points, along their rays.
     bound : float
-        Squared error at which a residual counts by half.
+        Squared error at which Cauchy's kernel counts a residual by half; `inf` for no kernel.
+    power : int
+        Which kernel.
 
     Returns
     -------
@@ -159,7 +174,7 @@ def _normal_equations(
     share = 1.0 / (1.0 + (scaled * along).sum(axis=0))
     shift = (scaled * residual).sum(axis=0)
     error = (inverse * residual**2).sum(axis=0) - share * shift**2
-    kernel = 1.0 / (1.0 + error / bound) ** 2
+    kernel = (1.0 + error / bound) ** -power
     weight = (inverse * kernel).reshape(-1, 1)
     column = np.einsum("kn,kni->ni", scaled, J)
     flat = J.reshape(-1, 6)
