@@ -57,6 +57,11 @@ class Keyframe:
         return self.image.colours
 
     @property
+    def known_points(self) -> FloatArray:
+        """Where the features lie in the keyframe's camera (M, 3), of those with depth."""
+        return self.points[np.isfinite(self.points[:, 2])]
+
+    @property
     def nbytes(self) -> int:
         """Bytes held: the image, the features with their points, the planes."""
         features = (getattr(self.features, field.name) for field in fields(self.features))

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from datasets import poses
-from datasets.settings import Settings
 from slam.estimate import Estimate
 from slam.keyframe import Keyframe
 from slam.linker import Linker
@@ -21,41 +19,12 @@ from slam.noise import SensorNoise
 from slam.planes import PlaneSettings, extract_planes
 from slam.pose_graph import Link, PoseGraph
 from slam.range_image import range_image_of
+from slam.selection import KeyframeSettings
 from slam.tracking import LoopClosure
 from slam.view import View
 from slam.window import Window
 
 FloatArray = NDArray[np.float64]
-
-
-class KeyframeSettings(Settings):
-    """When a view becomes a keyframe."""
-
-    min_overlap: float = Field(
-        0.75, gt=0, le=1, description="of the reference's points, the least still in view"
-    )
-    min_explained: float = Field(
-        0.3, gt=0, le=1, description="of the view's features, the least found in the local map"
-    )
-    min_followed: float = Field(
-        0.5, gt=0, le=1, description="of the corners of the template, the least still followed"
-    )
-    min_change: float = Field(
-        0.25, ge=0, le=1,
-        description="of what turn, way or overlap make a keyframe, the least where little is found",
-    )  # fmt: skip
-    max_baseline_share: float = Field(
-        0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
-    )
-    max_angle_deg: float = Field(20.0, gt=0, le=180, description="turn from the reference, at most")
-    same_m: float = Field(
-        0.05,
-        gt=0,
-        le=1,
-        description="an old keyframe serves where the way agrees this well, metres",
-    )
-    same_deg: float = Field(2.0, gt=0, le=30, description="and this well in degrees")
-    neighbours: int = Field(3, ge=0, le=50, description="keyframes tracked beside the reference")
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,12 +25,13 @@ from slam.local_map import LocalMap
 from slam.localiser import Localiser, estimate_of
 from slam.loops import LoopCloser, LoopSettings
 from slam.map import LiveMap, MapSettings, PointMap, build_map
-from slam.mapper import KeyframeSettings, Mapper
+from slam.mapper import Mapper
 from slam.motion import MotionSettings
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings
 from slam.pose_graph import Link, PoseGraph, PoseGraphSettings
 from slam.prediction import MotionModel, PredictionSettings
+from slam.selection import KeyframeSelector, KeyframeSettings
 from slam.space import SpaceSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
 from slam.tracker import Tracker, TrackerSettings
@@ -122,8 +123,7 @@ class Slam:
             lambda: self._backend.poses, self._around,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
-        # Points of the keyframe tracked against, in its camera: how much of it is still in view.
-        self._outline: FloatArray = np.empty((0, 3))
+        self._selector = KeyframeSelector(settings.keyframes, settings.textureless.keyframe_m)
         self._has_begun = self._is_lost = self._needs_features = False
         self._last_seen_s, self._lost_in_a_row = 0.0, 0
 
@@ -219,7 +219,7 @@ class Slam:
             estimate = estimate_of(located, view)
             if np.linalg.norm(self.pose_of(estimate.anchor)[:3, 3] - here) < reach:
                 self._is_lost = True
-                self._outline = _known_points(self.keyframes[estimate.reference])
+                self._selector.outline = self.keyframes[estimate.reference].known_points
                 return estimate
         return None
 
@@ -243,7 +243,7 @@ class Slam:
         """Move on to a located view: make it a keyframe, or at least what to track against."""
         state = TrackingState.RELOCALISED if self._is_lost else TrackingState.OK
         self._is_lost, self._last_seen_s, self._lost_in_a_row = False, view.frame.stamp_s, 0
-        if self._wants_keyframe(view, estimate):
+        if self._selector.wants(view, estimate):
             known = self._known(view, estimate)
             if known is None:
                 keyframe = self._backend.insert(view, estimate)
@@ -253,7 +253,7 @@ class Slam:
         self._localiser.moved_to(view, anchor, estimate)
         if estimate.method == "features":
             self._localiser.follow(view, anchor)
-            self._outline = _known_points(self.keyframes[anchor.keyframe])
+            self._selector.outline = self.keyframes[anchor.keyframe].known_points
         return self._report(view, state, anchor, estimate)
 
     def _known(self, view: View, estimate: Estimate) -> Estimate | None:
@@ -261,8 +261,8 @@ class Slam:
 
         Only where it agrees with the way tracked: otherwise a loop is to be closed first.
         """
-        settings = self.settings.keyframes
-        other = None if estimate.method == "depth" else self._nearest(estimate)
+        T_world_camera = self.pose_of(estimate.anchor)
+        other = None if estimate.method == "depth" else self._nearest(estimate, T_world_camera)
         if other is None:
             return None
         self._backend.finish()
@@ -272,31 +272,19 @@ class Slam:
         if located is None:
             return None
         known = estimate_of(located, view)
-        off = poses.inverse(T_camera_other) @ known.T_camera_reference
-        agrees = (
-            np.linalg.norm(off[:3, 3]) < settings.same_m
-            and np.degrees(poses.rotation_angle(off)) < settings.same_deg
-        )
-        return known if agrees and known.support > settings.min_explained else None
+        return known if self._selector.serves(known, T_camera_other) else None
 
-    def _nearest(self, estimate: Estimate) -> int | None:
+    def _nearest(self, estimate: Estimate, T_world_camera: FloatArray) -> int | None:
         """Return the keyframe that sees most nearly the same, but for the one tracked against."""
-        placed = self._backend.placed
+        placed, T_world = self._backend.placed, self._backend.poses
         others = [
             k
-            for k in self._backend.poses
+            for k in T_world
             if k != estimate.reference and (k in placed) == (estimate.reference in placed)
         ]
-        if not others or not len(self._outline):
-            return None
-        T_world_camera = self.pose_of(estimate.anchor)
-        T = poses.inverse(T_world_camera) @ np.array([self._backend.poses[k] for k in others])
-        settings, depth = self.settings.keyframes, float(np.median(self._outline[:, 2]))
-        away = np.linalg.norm(T[:, :3, 3], axis=1) / (settings.max_baseline_share * depth)
-        cosine = (np.trace(T[:, :3, :3], axis1=1, axis2=2) - 1) / 2
-        turned = np.degrees(np.arccos(np.clip(cosine, -1, 1))) / settings.max_angle_deg
-        nearest = int((away + turned).argmin())
-        return others[nearest] if away[nearest] + turned[nearest] < 1 else None
+        T_world_others = np.array([T_world[k] for k in others]).reshape(-1, 4, 4)
+        nearest = self._selector.nearest(T_world_camera, T_world_others)
+        return None if nearest is None else others[nearest]
 
     def _make_keyframe(
         self, view: View, keyframe: int, state: TrackingState, estimate: Estimate | None = None
@@ -305,35 +293,8 @@ class Slam:
         self._last_seen_s = view.frame.stamp_s
         anchor = Anchor(keyframe, np.eye(4))
         self._localiser.moved_to(view, anchor, None)
-        self._outline = self._localiser.follow(view, anchor).points
+        self._selector.outline = self._localiser.follow(view, anchor).points
         return self._report(view, state, anchor, estimate, is_keyframe=True)
-
-    def _wants_keyframe(self, view: View, estimate: Estimate) -> bool:
-        """Whether a view shows new space, or is losing touch with its keyframe."""
-        if not view.has_depth:
-            return False
-        settings, T = self.settings.keyframes, estimate.T_camera_reference
-        way = float(np.linalg.norm(T[:3, 3]))
-        change = float(np.degrees(poses.rotation_angle(T))) / settings.max_angle_deg
-        if estimate.method == "depth" or not len(self._outline):
-            return bool(max(change, way / self.settings.textureless.keyframe_m) > 1)
-        moved = poses.transform(T, self._outline)
-        ahead = moved[moved[:, 2] > 0.1]
-        pixels = view.frame.intrinsics.project(ahead)
-        size = (view.frame.intrinsics.width, view.frame.intrinsics.height)
-        overlap = np.all((pixels >= 0) & (pixels < size), axis=1).sum() / len(self._outline)
-        depth = float(np.median(self._outline[:, 2]))
-        change = max(
-            change,
-            way / (settings.max_baseline_share * depth),
-            (1 - overlap) / max(1 - settings.min_overlap, 1e-6),
-        )
-        if estimate.method == "flow":
-            return bool(change > 1 or estimate.support < settings.min_followed)
-        # Features that are not found again without a change of place are blurred, or mere noise:
-        # those of a new keyframe would be no better.
-        poor = estimate.support < settings.min_explained
-        return bool(change > (settings.min_change if poor else 1))
 
     def _report(
         self,
@@ -344,7 +305,7 @@ class Slam:
         is_keyframe: bool = False,
     ) -> Tracking:
         seen = np.empty((0, 2)) if estimate is None else estimate.pixels
-        inliers = len(self._outline) if estimate is None else estimate.inliers
+        inliers = len(self._selector.outline) if estimate is None else estimate.inliers
         # Not whether its features happen to be there: that depends on which thread was faster.
         is_looked_at = is_keyframe or (estimate is not None and estimate.method != "flow")
         return Tracking(
@@ -353,11 +314,6 @@ class Slam:
             is_keyframe, self._backend.closures(), seen,
             view if is_looked_at else None,
         )  # fmt: skip
-
-
-def _known_points(keyframe: Keyframe) -> FloatArray:
-    """Return where a keyframe's features lie in its camera (N, 3), of those with depth."""
-    return keyframe.points[np.isfinite(keyframe.points[:, 2])]
 
 
 def _without_pose(view: View, state: TrackingState) -> Tracking:
