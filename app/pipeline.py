@@ -352,8 +352,10 @@ class Pipeline:
         )  # fmt: skip
 
     def _state(self, tracking: Tracking) -> str:
-        place = self._labelled[-1].label if self._labelled else "unknown"
-        return f"{tracking.state.value}, {place}, {len(self.slam.keyframes)} keyframes"
+        said = [tracking.state.value, f"{len(self.slam.keyframe_poses)} keyframes"]
+        if self.labels.names[1:] and self._labelled:
+            said.insert(1, self._labelled[-1].label)
+        return ", ".join(said)
 
 
 def _trajectory_of(way: list[tuple[float, NDArray[np.float64]]]) -> Trajectory:

@@ -13,12 +13,9 @@ from datasets.frame import Frame
 from datasets.settings import Settings
 from slam.estimate import Estimate
 from slam.noise import SensorNoise
-from slam.surface import Surface, align_surface, surface_of
+from slam.surface import STEP_BOUND, Surface, align_surface, surface_of
 
 FloatArray = NDArray[np.float64]
-
-# 98.4 % of a chi-square with six degrees of freedom.
-STEP_BOUND = 15.6
 
 
 class LeaningSettings(Settings):

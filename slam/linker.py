@@ -17,14 +17,11 @@ from slam.motion import Motion, estimate_motion, procrustes
 from slam.noise import SensorNoise
 from slam.pose_graph import Link
 from slam.refine import RefinedMotion, refine_motion
-from slam.surface import Surface, align_surface, surface_of_image
+from slam.surface import STEP_BOUND, Surface, align_surface, surface_of_image
 from slam.tracker import Located, Tracker, correspondences, one_a_position
 from slam.view import View
 
 FloatArray = NDArray[np.float64]
-
-# 98.4 % of a chi-square with six degrees of freedom.
-STEP_BOUND = 15.6
 
 # So many of each side's strongest features are compared at first, and so many must agree.
 GLANCE = 300
