@@ -34,7 +34,7 @@ from slam.map import PointMap
 from slam.memory import remember
 from slam.slam import Slam
 from slam.survey import Survey, survey
-from slam.tracking import Anchor, Tracking, TrackingState
+from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 from slam.view import View
 
 logger = logging.getLogger(__name__)
@@ -235,7 +235,9 @@ class Pipeline:
     def _wait(self) -> Exception | None:
         """Wait for the keyframes in the making; return what went wrong, to be raised at the end."""
         try:
-            self.slam.finish()
+            for closure in self.slam.finish():
+                frame = self.slam.keyframes[closure.keyframe].frame_index
+                self.viewer.log(frame, _loop_event(closure))
         except Exception as error:
             logger.exception("the map is without its last keyframes")
             return error
@@ -365,10 +367,11 @@ def _trajectory_of(way: list[tuple[float, NDArray[np.float64]]]) -> Trajectory:
 
 def _events(tracking: Tracking) -> list[str]:
     """Return what is worth telling of a frame."""
-    events = [
-        f"loop closed with keyframe {closure.matched_keyframe} ({closure.inliers} matches)"
-        for closure in tracking.closures
-    ]
+    events = [_loop_event(closure) for closure in tracking.closures]
     if tracking.state is not TrackingState.OK:
         events.append(f"frame {tracking.index} {tracking.state.value}")
     return events
+
+
+def _loop_event(closure: LoopClosure) -> str:
+    return f"loop closed with keyframe {closure.matched_keyframe} ({closure.inliers} matches)"

@@ -35,7 +35,7 @@ from slam.selection import KeyframeSelector, KeyframeSettings
 from slam.space import SpaceSettings
 from slam.textureless import DepthOdometry, TexturelessSettings
 from slam.tracker import Tracker, TrackerSettings
-from slam.tracking import Anchor, Tracking, TrackingState
+from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 from slam.view import View
 from slam.window import Window, WindowSettings
 
@@ -147,9 +147,13 @@ class Slam:
             return self._lose(view)
         return self._accept(view, estimate)
 
-    def finish(self) -> None:
-        """Wait for the keyframes in the making: poses and map are final then."""
+    def finish(self) -> tuple[LoopClosure, ...]:
+        """Wait for the keyframes in the making: poses and map are final then.
+
+        Returns the loops that became known with them, of which no frame told.
+        """
         self._backend.finish()
+        return self._backend.closures()
 
     @property
     def keyframes(self) -> dict[int, Keyframe]:
