@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from datasets import poses
 from slam.estimate import Estimate
+from slam.features import Features
 from slam.keyframe import Keyframe
+from slam.local_map import Described, LocalMap, like_minded, local_map
 from slam.mapper import Mapper, MapUpdate
 from slam.pose_graph import Link
 from slam.tracking import LoopClosure
@@ -26,12 +28,21 @@ IN_FLIGHT = 4
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A keyframe in the making: where it is believed to be until it is done."""
+    """A keyframe in the making: what it shows, and where it is believed to be until it is done."""
 
-    keyframe: int
+    id: int
+    view: View
     reference: int | None
     T_reference_keyframe: FloatArray
     update: Future[MapUpdate]
+
+    @property
+    def features(self) -> Features:
+        return self.view.features
+
+    @property
+    def points(self) -> FloatArray:
+        return self.view.points_camera
 
 
 class Backend:
@@ -85,10 +96,31 @@ class Backend:
         while self._pending:
             self._take()
 
+    def around(self, reference: int) -> LocalMap:
+        """Return the points of a keyframe and of those near it that look the same way.
+
+        Goes by what is known of the map now: nothing is waited for but features.
+        """
+        pairs = [(link.first, link.second) for link in self.links]
+        pairs += [(k.reference, k.id) for k in self._pending if k.reference is not None]
+        linked = {b if a == reference else a for a, b in pairs if reference in (a, b)}
+        chosen = like_minded(reference, linked, self.poses, self.mapper.settings.neighbours)
+        return local_map([(self._described(k), self.poses[k]) for k in chosen])
+
+    def known_points(self, keyframe: int) -> FloatArray:
+        """Return where a keyframe's features lie in its camera (N, 3), of those with depth."""
+        points = self._described(keyframe).points
+        return points[np.isfinite(points[:, 2])]
+
     def closures(self) -> tuple[LoopClosure, ...]:
         """Return the loops that became known since last asked."""
         found, self._closures = tuple(self._closures), []
         return found
+
+    def _described(self, keyframe: int) -> Described:
+        """Return a keyframe, done or in the making."""
+        making = next((pending for pending in self._pending if pending.id == keyframe), None)
+        return making or self.keyframes[keyframe]
 
     def _submit(
         self,
@@ -102,7 +134,7 @@ class Backend:
         while len(self._pending) >= IN_FLIGHT:
             self._take()
         update = self._mappers.submit(lambda: take_in(described.result()))
-        self._pending.append(_Pending(keyframe, reference, T, update))
+        self._pending.append(_Pending(keyframe, view, reference, T, update))
         self._chain()
         return keyframe
 
@@ -131,6 +163,6 @@ class Backend:
             T = pending.T_reference_keyframe
             if pending.reference is not None:
                 T = self.poses[pending.reference] @ T
-            self.poses[pending.keyframe] = T
+            self.poses[pending.id] = T
             if pending.reference in self.placed or not self.keyframes:
-                self.placed.add(pending.keyframe)
+                self.placed.add(pending.id)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.camera import Intrinsics
+from slam.kernels import HOLD, bundle_equations, bundle_errors, landmark_steps
 from slam.noise import SensorNoise
-from slam.refine import CHI2_95, NO_READING, residuals
+from slam.refine import CHI2_95, inverse_variances
 
 FloatArray = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ def adjust(
     landmarks : (L, 3) float64
         Where they are believed to be.
     """
-    system = _System(seen, is_free, len(landmarks), intrinsics, noise)
+    system = _System(seen, is_free, intrinsics, noise)
     T, points = T_camera_world.copy(), landmarks.copy()
     for _ in range(iterations):
         step, moves = system.solve(T, points)
@@ -101,102 +101,36 @@ def adjust(
 
 
 class _System:
-    """The equations of one adjustment, camera by camera."""
+    """The equations of one adjustment."""
 
     def __init__(
         self,
         seen: Observations,
         is_free: NDArray[np.bool_],
-        landmarks: int,
         intrinsics: Intrinsics,
         noise: SensorNoise,
     ) -> None:
-        self.intrinsics, self.is_free, self.landmarks = intrinsics, is_free, landmarks
-        self._order = np.argsort(seen.cameras, kind="stable")
-        self.seen = seen.take(self._order)
-        ends = np.searchsorted(self.seen.cameras, np.arange(len(is_free) + 1)).tolist()
-        self._of_camera = [slice(a, b) for a, b in pairwise(ends)]
-        self._inverse_variance = _inverse_variances(self.seen, noise)
+        self._order = np.argsort(seen.landmarks, kind="stable")
+        seen = seen.take(self._order)
+        self._seen = seen.cameras, seen.landmarks
+        self._measured = (
+            *self._seen, seen.pixels, seen.depths, inverse_variances(seen.depths, noise),
+            np.array([intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy]),
+        )  # fmt: skip
+        self._free = int(is_free.sum())
+        self._slots = np.where(is_free, np.cumsum(is_free) - 1, -1)
 
     def errors(self, T: FloatArray, points: FloatArray) -> FloatArray:
         """Return the observations' squared errors (N,), standard deviations; inf when behind."""
-        local = self._in_cameras(T, points)
-        residual, _ = residuals(local, self.seen.pixels, self.seen.depths, self.intrinsics)
-        error = (self._inverse_variance * residual**2).sum(axis=0)
-        errors = np.empty(len(error))
-        errors[self._order] = np.where(local[:, 2] > 0, error, np.inf)
+        errors = np.empty(len(self._order))
+        errors[self._order] = bundle_errors(T, points, *self._measured)
         return errors
 
     def solve(self, T: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the steps of the free cameras (K', 6) and of all landmarks (L, 3)."""
-        local = self._in_cameras(T, points)
-        residual, J = residuals(local, self.seen.pixels, self.seen.depths, self.intrinsics)
-        error = (self._inverse_variance * residual**2).sum(axis=0)
-        weight = self._inverse_variance / (1.0 + error / CHI2_95) ** 2
-        cameras = int(self.is_free.sum())
-        H, g = np.zeros((cameras, 6, cameras, 6)), np.zeros((cameras, 6))
-        # Of each landmark: its Hessian, its gradient.
-        H_points, g_points = np.zeros((self.landmarks, 3, 3)), np.zeros((self.landmarks, 3))
-        coupling = np.zeros((cameras, 6, self.landmarks, 3))
-        WJ = J * weight[:, :, None]
-        slot = 0
-        for k, rows in enumerate(self._of_camera):
-            # A camera sees a landmark once, so that indices do not repeat.
-            landmarks, r = self.seen.landmarks[rows], residual[:, rows]
-            WJ_point = np.swapaxes(WJ[:, rows, 3:] @ T[k, :3, :3], 0, 1)
-            J_point = np.swapaxes(J[:, rows, 3:] @ T[k, :3, :3], 0, 1)
-            H_points[landmarks] += np.swapaxes(WJ_point, 1, 2) @ J_point
-            g_points[landmarks] += (r.T[:, None] @ WJ_point)[:, 0]
-            if self.is_free[k]:
-                own = WJ[:, rows].reshape(-1, 6)
-                H[slot, :, slot] = own.T @ J[:, rows].reshape(-1, 6)
-                g[slot] = own.T @ r.ravel()
-                coupling[slot][:, landmarks] = np.swapaxes(
-                    J[:, rows].transpose(1, 2, 0) @ WJ_point, 0, 1
-                )
-                slot += 1
-        return _eliminate(
-            H.reshape(6 * cameras, -1), g.ravel(), coupling.reshape(6 * cameras, -1, 3),
-            H_points, g_points,
-        )  # fmt: skip
-
-    def _in_cameras(self, T: FloatArray, points: FloatArray) -> FloatArray:
-        """Return what is observed (N, 3), each in the camera that observes it."""
-        local = points[self.seen.landmarks]
-        for k, rows in enumerate(self._of_camera):
-            local[rows] = poses.transform(T[k], local[rows])
-        return local
-
-
-def _eliminate(
-    H: FloatArray, g: FloatArray, coupling: FloatArray, H_points: FloatArray, g_points: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Solve for the cameras (6 K') without the landmarks (L), then for these.
-
-    Parameters
-    ----------
-    H, g : (6 K', 6 K'), (6 K',) float64
-        Of the cameras.
-    coupling : (6 K', L, 3) float64
-        Of cameras and landmarks.
-    H_points, g_points : (L, 3, 3), (L, 3) float64
-        Of the landmarks.
-    """
-    inverse = np.linalg.inv(H_points + 1e-6 * np.eye(3))
-    moved = np.einsum("lij,lj->li", inverse, g_points)
-    flat = coupling.reshape(len(g), -1)
-    # Batched by landmark: a product of many small matrices.
-    gone = np.matmul(coupling.transpose(1, 0, 2), inverse).transpose(1, 0, 2).reshape(len(g), -1)
-    reduced = H - gone @ flat.T + 1e-6 * np.eye(len(g))
-    step = -np.asarray(np.linalg.solve(reduced, g - flat @ moved.ravel()), np.float64)
-    moves = -moved - (gone.T @ step).reshape(-1, 3)
-    return step.reshape(-1, 6), moves
-
-
-def _inverse_variances(seen: Observations, noise: SensorNoise) -> FloatArray:
-    """Return how much each residual (3, N) counts."""
-    known = np.isfinite(seen.depths)
-    depths = np.where(known, seen.depths, 1.0)
-    sigma = np.where(known, noise.depth_sigma(depths) / depths**2, NO_READING)
-    pixel = np.full(len(sigma), noise.pixel)
-    return np.asarray(np.stack([pixel, pixel, sigma]) ** -2.0)
+        H, g, *of_landmarks = bundle_equations(
+            T, self._slots, self._free, points, *self._measured, CHI2_95
+        )
+        step = -np.asarray(np.linalg.solve(H + HOLD * np.eye(len(g)), g), np.float64)
+        steps = step.reshape(-1, 6)
+        return steps, landmark_steps(steps, self._slots, *self._seen, *of_landmarks)

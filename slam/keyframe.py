@@ -29,6 +29,8 @@ class Keyframe:
         The frame's N features.
     points : (N, 3) float64
         Where they lie in the keyframe's camera, metres; NaN without depth.
+    words : (W,) int
+        What it looks like: the words of its strongest features.
     planes : tuple of Plane
         The large surfaces seen.
     image : RangeImage
@@ -42,6 +44,7 @@ class Keyframe:
     stamp_s: float
     features: Features
     points: FloatArray
+    words: NDArray[np.intp]
     planes: tuple[Plane, ...]
     image: RangeImage
     intrinsics: Intrinsics
@@ -57,13 +60,8 @@ class Keyframe:
         return self.image.colours
 
     @property
-    def known_points(self) -> FloatArray:
-        """Where the features lie in the keyframe's camera (M, 3), of those with depth."""
-        return self.points[np.isfinite(self.points[:, 2])]
-
-    @property
     def nbytes(self) -> int:
         """Bytes held: the image, the features with their points, the planes."""
         features = (getattr(self.features, field.name) for field in fields(self.features))
-        arrays = [self.points, *features, *(plane.points for plane in self.planes)]
+        arrays = [self.points, self.words, *features, *(plane.points for plane in self.planes)]
         return self.image.nbytes + sum(a.nbytes for a in arrays if isinstance(a, np.ndarray))

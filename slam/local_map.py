@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.camera import Intrinsics
-from slam.keyframe import Keyframe
+from slam.features import Features
 
 FloatArray = NDArray[np.float64]
 
@@ -57,7 +57,23 @@ class LocalMap:
         return ahead[inside], pixels[inside]
 
 
-def local_map(keyframes: Sequence[tuple[Keyframe, FloatArray]]) -> LocalMap:
+class Described(Protocol):
+    """What a local map is made of: a keyframe, done or in the making, or one of a former run."""
+
+    @property
+    def id(self) -> int:
+        """What it is known by."""
+
+    @property
+    def features(self) -> Features:
+        """Its N features."""
+
+    @property
+    def points(self) -> FloatArray:
+        """Where they lie in its camera (N, 3), metres; NaN without depth."""
+
+
+def local_map(keyframes: Sequence[tuple[Described, FloatArray]]) -> LocalMap:
     """Join keyframes, given with T_world_keyframe (4, 4); the first is the reference."""
     reference, T_world_reference = keyframes[0]
     T_reference_world = poses.inverse(T_world_reference)
@@ -72,3 +88,15 @@ def local_map(keyframes: Sequence[tuple[Keyframe, FloatArray]]) -> LocalMap:
         reference.id, np.concatenate(points), np.concatenate(descriptors),
         np.concatenate(owners), np.concatenate(rows),
     )  # fmt: skip
+
+
+def like_minded(
+    reference: int, linked: Iterable[int], T_world: Mapping[int, FloatArray], count: int
+) -> list[int]:
+    """Return a keyframe and, of those linked to it, the `count` that look most the same way."""
+    T_reference_world = poses.inverse(T_world[reference])
+    ranked = []
+    for other in linked:
+        T = T_reference_world @ T_world[other]
+        ranked.append((np.linalg.norm(T[:3, 3]) + 2 * poses.rotation_angle(T), other))
+    return [reference, *(k for _, k in sorted(ranked)[:count])]

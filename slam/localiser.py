@@ -36,7 +36,7 @@ class Localiser:
     T_world_keyframe : callable
         Returns the poses known now, by keyframe id.
     around : callable
-        Returns the points around a keyframe; may have to wait for keyframes in the making.
+        Returns the points around a keyframe, by its id.
     """
 
     def __init__(

@@ -70,11 +70,10 @@ class LoopCloser:
         known : set of int
             Keyframes that it is linked to anyway; they close no loop.
         """
-        words = self.index.words_of(keyframe.features.descriptors)
         taken: list[Measured] = []
         if self.settings.enabled:
             known = known | graph.around(keyframe.id, self.settings.min_way_m)
-            tried = self._alike(words, keyframe.id, known)
+            tried = self._alike(keyframe, known)
             tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
             for candidate in tried:
                 measured = self.linker.between(view, keyframe, keyframes[candidate])
@@ -84,7 +83,7 @@ class LoopCloser:
                 ):  # fmt: skip
                     taken = self.belief.admit(measured, graph, keyframe.intrinsics.view_deg)
                     break
-        self.index.add(keyframe.id, words)
+        self.index.add(keyframe.id, keyframe.words)
         return taken
 
     def alike(self, view: View, count: int) -> list[int]:
@@ -98,10 +97,10 @@ class LoopCloser:
             return False
         return depth_agreement(other.cloud, T_view_other, view) >= self.settings.min_agreement
 
-    def _alike(self, words: NDArray[np.intp], keyframe: int, known: set[int]) -> list[int]:
-        ranked = self.index.rank(words, before=keyframe)
+    def _alike(self, keyframe: Keyframe, known: set[int]) -> list[int]:
+        ranked = self.index.rank(keyframe.words, before=keyframe.id)
         likeness = dict(ranked)
-        enough = self.settings.min_similarity * likeness.get(keyframe - 1, 0.0)
+        enough = self.settings.min_similarity * likeness.get(keyframe.id - 1, 0.0)
         return [
             other
             for other, score in ranked[: self.settings.candidates + len(known)]

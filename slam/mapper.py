@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets import poses
 from slam.estimate import Estimate
 from slam.keyframe import Keyframe
 from slam.linker import Linker
-from slam.local_map import LocalMap, local_map
+from slam.local_map import LocalMap, like_minded, local_map
 from slam.loops import LoopCloser
 from slam.map import MapSettings
 from slam.noise import SensorNoise
@@ -75,7 +74,10 @@ class Mapper:
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
 
     def describe(self, keyframe_id: int, view: View) -> Keyframe:
-        """Make a keyframe of a view; needs nothing of the map, so it may run ahead in a thread."""
+        """Make a keyframe of a view; needs nothing of the map, so it may run ahead in a thread.
+
+        Views are to come in order: what they look like is told in words found on the way.
+        """
         frame = view.frame
         image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
         planes = (
@@ -85,7 +87,7 @@ class Mapper:
         )
         return Keyframe(
             keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
-            planes, image, frame.intrinsics,
+            self.loops.index.words_of(view.features.descriptors), planes, image, frame.intrinsics,
         )  # fmt: skip
 
     def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
@@ -140,13 +142,11 @@ class Mapper:
 
     def around(self, reference: int) -> LocalMap:
         """Return the points of a keyframe and of those linked to it that look the same way."""
-        T_reference_world = poses.inverse(self.graph[reference])
-        ranked = []
-        for other in self._neighbours[reference]:
-            T = T_reference_world @ self.graph[other]
-            ranked.append((np.linalg.norm(T[:3, 3]) + 2 * poses.rotation_angle(T), other))
-        chosen = [reference, *(k for _, k in sorted(ranked)[: self.settings.neighbours])]
-        return local_map([(self.keyframes[k], self.graph[k]) for k in chosen])
+        T_world = self.graph.poses
+        chosen = like_minded(
+            reference, self._neighbours[reference], T_world, self.settings.neighbours
+        )
+        return local_map([(self.keyframes[k], T_world[k]) for k in chosen])
 
     def _links(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Link]:
         """Measure the motion to each keyframe around; add how it was tracked unless by these."""

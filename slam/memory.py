@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.files import replacing
 from slam.errors import SlamError
 from slam.features import Features
 from slam.keyframe import Keyframe
-from slam.local_map import LocalMap
+from slam.local_map import LocalMap, local_map
 
 FloatArray = NDArray[np.float64]
 
@@ -83,16 +82,7 @@ def remember(
 
 def joined(keyframes: Iterable[RememberedKeyframe]) -> LocalMap:
     """Join keyframes into one map in the camera frame of the first."""
-    chosen = list(keyframes)
-    T_reference_world = poses.inverse(chosen[0].T_world_keyframe)
-    points = [poses.transform(T_reference_world @ k.T_world_keyframe, k.points) for k in chosen]
-    return LocalMap(
-        chosen[0].id,
-        np.concatenate(points),
-        np.concatenate([k.features.descriptors for k in chosen]),
-        np.concatenate([np.full(len(k.points), k.id) for k in chosen]),
-        np.concatenate([np.arange(len(k.points)) for k in chosen]),
-    )
+    return local_map([(k, k.T_world_keyframe) for k in keyframes])
 
 
 def write_memory(path: Path, memory: KeyframeMemory) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.camera import Intrinsics
+from slam.kernels import HOLD, motion_equations
 from slam.motion import Correspondences
 from slam.noise import SensorNoise
 
@@ -16,7 +17,6 @@ FloatArray = NDArray[np.float64]
 
 # 95 % of a chi-square with three degrees of freedom: two pixels and an inverse depth.
 CHI2_95 = 7.81
-NO_READING = 1e3
 # Robust kernels, as the powers of (1 + e / c) that they divide by.
 CAUCHY, GEMAN_MCCLURE = 1, 2
 # Metres and radians: steps as small as this.
@@ -74,16 +74,11 @@ def refine_motion(
         Of the kernel at first, in standard deviations; halved each time until it is 1. A wide one
         draws in a start that is some pixels off (graduated non-convexity).
     """
-    T = T_camera_reference
-    spread = found.points * (noise.depth_sigma(found.points[:, 2]) / found.points[:, 2])[:, None]
-    power = CAUCHY
+    system = _System(found, intrinsics, noise)
+    T, power = T_camera_reference, CAUCHY
     for _ in range(iterations):
-        local = poses.transform(T, found.points)
-        residual, J = residuals(local, found.pixels, found.depths, intrinsics)
-        error, H, g = _normal_equations(
-            T, residual, J, spread, found, noise, CHI2_95 * width**2, power
-        )
-        step = -np.asarray(np.linalg.solve(H + 1e-6 * np.eye(6), g), np.float64)
+        _, H, g = system.at(T, CHI2_95 * width**2, power)
+        step = -np.asarray(np.linalg.solve(H + HOLD * np.eye(6), g), np.float64)
         T = poses.exponential(step) @ T
         length = np.abs(step).max()
         if width > 1.0:
@@ -92,93 +87,42 @@ def refine_motion(
             power = GEMAN_MCCLURE
         elif length < AT_REST:
             break
-    local = poses.transform(T, found.points)
-    residual, J = residuals(local, found.pixels, found.depths, intrinsics)
-    error, _, _ = _normal_equations(T, residual, J, spread, found, noise, np.inf)
-    inliers = (error < CHI2_95) & (local[:, 2] > 0)
-    agreeing = found.take(inliers)
-    _, H, _ = _normal_equations(
-        T, residual[:, inliers], J[:, inliers], spread[inliers], agreeing, noise, np.inf
-    )
+    error, _, _ = system.at(T)
+    inliers = error < CHI2_95
+    _, H, _ = _System(found.take(inliers), intrinsics, noise).at(T)
     return RefinedMotion(T, H, inliers)
 
 
-def residuals(
-    points: FloatArray, pixels: FloatArray, depths: FloatArray, intrinsics: Intrinsics
-) -> tuple[FloatArray, FloatArray]:
-    """Compare points in the camera (N, 3) with the pixels (N, 2) and depths (N,) that it measured.
+class _System:
+    """The equations of one motion.
 
-    Returns
-    -------
-    residual : (3, N) float64
-        Two pixels and an inverse depth; this is 0 where the measured one is NaN.
-    J : (3, N, 6) float64
-        Their derivatives by a left step of the camera's motion.
+    A correspondence's covariance is a diagonal, the camera's noise, plus that of the reference's
+    depth, which lies along one ray.
     """
-    x, y, z = points.T
-    z = np.maximum(z, 1e-3)
-    d = 1.0 / z
-    u, v = x * d, y * d
-    fx, fy = intrinsics.fx, intrinsics.fy
+
+    def __init__(self, found: Correspondences, intrinsics: Intrinsics, noise: SensorNoise) -> None:
+        z = found.points[:, 2:]
+        self._measured = (
+            found.points, found.points * (noise.depth_sigma(z) / z), found.pixels, found.depths,
+            inverse_variances(found.depths, noise),
+        )  # fmt: skip
+        self._K = np.array([intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy])
+
+    def at(
+        self, T: FloatArray, bound: float = np.inf, power: int = CAUCHY
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return squared errors (N,), standard deviations, and the system (6, 6), (6,) to solve.
+
+        Without a `bound`, the squared error at which Cauchy's kernel counts a correspondence by
+        half, all count in full.
+        """
+        return motion_equations(T, *self._measured, self._K, bound, power)
+
+
+def inverse_variances(depths: FloatArray, noise: SensorNoise) -> FloatArray:
+    """Return how much two pixels and an inverse depth count (N, 3), given the depths (N,)."""
     known = np.isfinite(depths)
-    residual = np.zeros((3, len(z)))
-    residual[0] = fx * u + intrinsics.cx - pixels[:, 0]
-    residual[1] = fy * v + intrinsics.cy - pixels[:, 1]
-    residual[2, known] = d[known] - 1.0 / depths[known]
-    J = np.zeros((3, len(z), 6))
-    J[0, :, 0], J[0, :, 1], J[0, :, 2] = -fx * u * v, fx * (1 + u * u), -fx * v
-    J[0, :, 3], J[0, :, 5] = fx * d, -fx * u * d
-    J[1, :, 0], J[1, :, 1], J[1, :, 2] = -fy * (1 + v * v), fy * u * v, fy * u
-    J[1, :, 4], J[1, :, 5] = fy * d, -fy * v * d
-    d = np.where(known, d, 0.0)
-    J[2, :, 0], J[2, :, 1], J[2, :, 5] = -v * d, u * d, -d * d
-    return residual, J
-
-
-def _normal_equations(
-    T: FloatArray,
-    residual: FloatArray,
-    J: FloatArray,
-    spread: FloatArray,
-    found: Correspondences,
-    noise: SensorNoise,
-    bound: float,
-    power: int = CAUCHY,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weigh the residuals (3, N) by their covariances and by a robust kernel.
-
-    The inverse covariance is a diagonal less one column times itself (Sherman & Morrison), so the
-    sums are two matrix products.
-
-    Parameters
-    ----------
-    spread : (N, 3) float64
-        The standard deviations of the reference points, along their rays.
-    bound : float
-        Squared error at which Cauchy's kernel counts a residual by half; `inf` for no kernel.
-    power : int
-        Which kernel.
-
-    Returns
-    -------
-    error, H, g : (N,), (6, 6), (6,) float64
-        Squared errors in standard deviations, and the system to solve.
-    """
-    along = J[:, :, 3:] @ T[:3, :3]
-    along = np.einsum("kni,ni->kn", along, spread)
-    known = np.isfinite(found.depths)
-    depths = np.where(known, found.depths, 1.0)
-    inverse = np.full(along.shape, noise.pixel**-2)
-    inverse[2] = np.where(known, depths**2 / noise.depth_sigma(depths), 1 / NO_READING) ** 2
-    scaled = inverse * along
-    share = 1.0 / (1.0 + (scaled * along).sum(axis=0))
-    shift = (scaled * residual).sum(axis=0)
-    error = (inverse * residual**2).sum(axis=0) - share * shift**2
-    kernel = (1.0 + error / bound) ** -power
-    weight = (inverse * kernel).reshape(-1, 1)
-    column = np.einsum("kn,kni->ni", scaled, J)
-    flat = J.reshape(-1, 6)
-    less = column * (share * kernel)[:, None]
-    H = (flat * weight).T @ flat - less.T @ column
-    g = flat.T @ (weight[:, 0] * residual.ravel()) - less.T @ shift
-    return error, H, g
+    depths = np.where(known, depths, 1.0)
+    inverse = np.full((len(depths), 3), noise.pixel**-2.0)
+    inverse[:, 2] = np.where(known, (depths**2 / noise.depth_sigma(depths)) ** 2, 0.0)
+    return inverse

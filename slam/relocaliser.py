@@ -11,6 +11,7 @@ from pydantic import Field
 from datasets import poses
 from datasets.settings import Settings
 from slam.appearance import AppearanceIndex, AppearanceSettings
+from slam.local_map import like_minded
 from slam.memory import KeyframeMemory, RememberedKeyframe, joined
 from slam.tracker import Located, Tracker
 from slam.view import View
@@ -109,15 +110,10 @@ class Relocaliser:
 
     def _around(self, keyframe: RememberedKeyframe) -> list[RememberedKeyframe]:
         """Return a keyframe and those nearest to it that look the same way."""
-        T_here_world = poses.inverse(keyframe.T_world_keyframe)
-
-        def way(other: RememberedKeyframe) -> float:
-            T = T_here_world @ other.T_world_keyframe
-            return float(np.linalg.norm(T[:3, 3]) + 2 * poses.rotation_angle(T))
-
-        ranked = sorted(self.memory.keyframes, key=lambda other: (way(other), other.id))
-        others = [other for other in ranked if other.id != keyframe.id]
-        return [keyframe, *others[: self.settings.neighbours]]
+        T_world = {k.id: k.T_world_keyframe for k in self.memory.keyframes}
+        others = T_world.keys() - {keyframe.id}
+        chosen = like_minded(keyframe.id, others, T_world, self.settings.neighbours)
+        return [self._by_id[k] for k in chosen]
 
 
 def _measured(

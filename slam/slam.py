@@ -21,7 +21,6 @@ from slam.icp import IcpSettings
 from slam.keyframe import Keyframe
 from slam.leaning import LeaningSettings, SurfaceLeaning
 from slam.linker import Linker
-from slam.local_map import LocalMap
 from slam.localiser import Localiser, estimate_of
 from slam.loops import LoopCloser, LoopSettings
 from slam.map import LiveMap, MapSettings, PointMap, build_map
@@ -120,7 +119,7 @@ class Slam:
         self._localiser = Localiser(
             FlowTracker(settings.flow, settings.noise), self._tracker, depth,
             MotionModel(settings.prediction), SurfaceLeaning(settings.leaning, settings.noise),
-            lambda: self._backend.poses, self._around,
+            lambda: self._backend.poses, self._backend.around,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
         self._selector = KeyframeSelector(settings.keyframes, settings.textureless.keyframe_m)
@@ -193,10 +192,6 @@ class Slam:
         placed = {k: v for k, v in self.keyframes.items() if k in self._backend.placed}
         return self._live_map.update(placed, self.keyframe_poses)
 
-    def _around(self, keyframe: int) -> LocalMap:
-        self._backend.finish()
-        return self.mapper.around(keyframe)
-
     def _begin(self, view: View) -> Tracking:
         """Start the map with the first frame that shows anything in depth."""
         if not view.has_depth:
@@ -215,7 +210,7 @@ class Slam:
         reach = self.settings.loss.reach_m + self.settings.loss.speed_m_s * seconds
         here = self._localiser.T_world_camera[:3, 3]
         for candidate in self.mapper.loops.alike(view, 4):
-            located = self._tracker.locate(view, self.mapper.around(candidate))
+            located = self._tracker.locate(view, self._backend.around(candidate))
             if located is None or not self.mapper.loops.is_sound(
                 located.inliers, located.motion.T_camera_reference, view, self.keyframes[candidate]
             ):
@@ -223,7 +218,7 @@ class Slam:
             estimate = estimate_of(located, view)
             if np.linalg.norm(self.pose_of(estimate.anchor)[:3, 3] - here) < reach:
                 self._is_lost = True
-                self._selector.outline = self.keyframes[estimate.reference].known_points
+                self._selector.outline = self._backend.known_points(estimate.reference)
                 return estimate
         return None
 
@@ -257,7 +252,7 @@ class Slam:
         self._localiser.moved_to(view, anchor, estimate)
         if estimate.method == "features":
             self._localiser.follow(view, anchor)
-            self._selector.outline = self.keyframes[anchor.keyframe].known_points
+            self._selector.outline = self._backend.known_points(anchor.keyframe)
         return self._report(view, state, anchor, estimate)
 
     def _known(self, view: View, estimate: Estimate) -> Estimate | None:
@@ -269,10 +264,8 @@ class Slam:
         other = None if estimate.method == "depth" else self._nearest(estimate, T_world_camera)
         if other is None:
             return None
-        self._backend.finish()
-        T_world_camera = self.pose_of(estimate.anchor)
         T_camera_other = poses.inverse(T_world_camera) @ self._backend.poses[other]
-        located = self._tracker.guided(view, self.mapper.around(other), T_camera_other)
+        located = self._tracker.guided(view, self._backend.around(other), T_camera_other)
         if located is None:
             return None
         known = estimate_of(located, view)

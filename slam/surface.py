@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
+from slam.kernels import surface_equations
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
 from slam.view import EDGE_SHARE, without_edges
@@ -131,28 +132,18 @@ def align_surface(
     normals = target.normals.reshape(-1, 3)
     # Each cell's plane is n . p = offset.
     offsets = np.einsum("ni,ni->n", normals, target.points.reshape(-1, 3))
+    camera = target.intrinsics
+    K = np.array([camera.fx, camera.fy, camera.cx, camera.cy]) / target.stride
+    sigma = np.array([noise.depth_floor_m, noise.depth_quadratic])
     for _ in range(iterations):
-        moved = poses.transform(T, cloud)
-        which, cells = target.cells(moved)
-        p, n = moved[which], normals[cells]
-        r = np.einsum("ni,ni->n", p, n) - offsets[cells]
-        near = np.abs(r) < max_distance_m  # also drops what has no normal
-        if near.sum() < 100:
+        found, g, count = surface_equations(
+            T, cloud, normals, offsets, target.points.shape[:2], K, sigma, max_distance_m
+        )
+        if count < 100:
             break
-        p, n, r = p[near], n[near], r[near]
-        J = np.column_stack([
-            p[:, 1] * n[:, 2] - p[:, 2] * n[:, 1],
-            p[:, 2] * n[:, 0] - p[:, 0] * n[:, 2],
-            p[:, 0] * n[:, 1] - p[:, 1] * n[:, 0],
-            n,
-        ])  # fmt: skip
-        variance = noise.depth_sigma(p[:, 2]) ** 2
-        # Neighbouring readings err together: count one in ten.
-        weight = 0.1 / (variance + r**2)
-        WJ = J * weight[:, None]
-        H = WJ.T @ J
+        H = found
         moved_by = poses.logarithm(T @ poses.inverse(T_target_cloud))
-        gradient = WJ.T @ r + prior_information @ moved_by
+        gradient = g + prior_information @ moved_by
         step = np.asarray(np.linalg.solve(H + prior_information, gradient))
         T = poses.exponential(-step) @ T
         if np.abs(step).max() < CONVERGED:

@@ -20,7 +20,15 @@ SETTINGS = MapSettings(voxel_m=0.05)
 
 def _keyframe(number, image):
     return Keyframe(
-        number, number, float(number), Features.none(), np.empty((0, 3)), (), image, CAMERA
+        number,
+        number,
+        float(number),
+        Features.none(),
+        np.empty((0, 3)),
+        np.empty(0, dtype=np.intp),
+        (),
+        image,
+        CAMERA,
     )
 
 
@@ -268,7 +276,7 @@ def test_a_keyframes_bytes_are_counted():
         np.zeros((10, 2)), np.zeros((10, 128), np.float32), np.zeros(10, np.float32)
     )
     more = Keyframe(
-        0, 0, 0.0, features, np.zeros((10, 3)),
+        0, 0, 0.0, features, np.zeros((10, 3)), np.zeros(7, dtype=np.intp),
         (Plane(np.zeros(3), 0.0, np.zeros((100, 3))),), _image(2.0), CAMERA,
     )  # fmt: skip
-    assert more.nbytes == 5 * 64 * 48 + 10 * (16 + 512 + 4 + 24) + 2400
+    assert more.nbytes == 5 * 64 * 48 + 10 * (16 + 512 + 4 + 24) + 7 * 8 + 2400
