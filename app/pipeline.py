@@ -5,36 +5,35 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from app.clock import StageClock
 from app.config import AppSettings
+from app.journal import Journal
 from app.metrics import run_metrics
 from app.prefetch import prefetch
 from app.recorder import Recorder
-from app.viewer import MapView, SessionView, Viewer
+from app.viewer import SessionView, Viewer
 from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
 from semantics.extents import with_extents
-from semantics.floor import places_at
 from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel, PlaceLabeller
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
-from semantics.parts import Vote
 from semantics.topology import TopologicalMap
 from slam.map import PointMap
 from slam.memory import remember
 from slam.slam import Slam
 from slam.survey import Survey, survey
-from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
+from slam.tracking import LoopClosure, Tracking, TrackingState
 from slam.view import View
 
 logger = logging.getLogger(__name__)
@@ -84,7 +83,7 @@ class Pipeline:
         self.labels = model.labels if model is not None else LabelSpace.of(())
         self.labeller = PlaceLabeller(model, settings.semantics.labeller)
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
-        self._labelled: list[FrameLabel] = []
+        self.journal = Journal(self.slam)
         self._unlabelled: deque[Tracking] = deque()
         self._drawn_keyframes, self._bent = 0, False
 
@@ -143,7 +142,7 @@ class Pipeline:
         for label in labels:
             with self.clock.stage("graph"):
                 dropped = self.topology.update(label, self.slam.keyframe_poses)
-            self._labelled.append(replace(label, tracking=label.tracking.without_view()))
+            self.journal.add(label)
             self.recorder.add_frame(label)
             self.viewer.show_label(label.tracking.index, label.label_id, label.label, label.score)
             if dropped:
@@ -169,7 +168,9 @@ class Pipeline:
                 self.viewer.log(tracking.index, event)
             if self._is_map_due(tracking):
                 self._drawn_keyframes, self._bent = len(self.slam.keyframes), False
-                self.viewer.show_map(tracking.index, lambda: self._map_view(self.slam.sketch_map()))
+                self.viewer.show_map(
+                    tracking.index, lambda: self.journal.map_view(self.slam.sketch_map())
+                )
         self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
 
     def _in_world(self, tracking: Tracking) -> Tracking:
@@ -189,48 +190,64 @@ class Pipeline:
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:
-            self.recorder.write_trajectory(self._trajectory())
+            self.recorder.write_trajectory(self.journal.trajectory())
 
     def _finish(self) -> dict[str, Any]:
         """Write everything, from a whole run or from what there is of it."""
         failure = self._wait()
         self._label_but(0)
         self._take(self.labeller.finish())
-        self._place()
-        placed = self.slam.placed_poses
-        keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
-        with self.clock.stage("map"):
-            points = self.slam.build_map()
-        with self.clock.stage("survey"):
+        self._settle()
+        trajectory = self.journal.trajectory()
+        with ThreadPoolExecutor(1, thread_name_prefix="map") as pool:
+            fused = pool.submit(self._fuse)
             surveyed = self._survey()
-        with self.clock.stage("extents"):
             graph = self._final_graph(surveyed)
-            view = self._map_view(points, graph)
-        trajectory, last = self._trajectory(), max(0, len(self._labelled) - 1)
+            with self.clock.stage("write"):
+                self._write(trajectory, graph, surveyed)
+            points = fused.result()
+        view = self.journal.map_view(points, graph)
         with self.clock.stage("view"):
+            last = max(0, len(self.journal.labels) - 1)
             self.viewer.show_map(last, lambda: view)
             self.viewer.show_graph(last, graph)
         with self.clock.stage("write"):
-            self.recorder.write_trajectory(trajectory)
-            self.recorder.write_graph(graph)
-            if keyframes:
-                self.recorder.write_pose_graph(
-                    self.slam.mapper.graph, {k.id: k.stamp_s for k in keyframes}
-                )
-            self.recorder.write_memory(remember(keyframes, placed))
             self.recorder.write_map(points, view.label_ids, self.labels)
-            if surveyed is not None:
-                self.recorder.write_occupancy(surveyed.grid)
         with self.clock.stage("close"):
             self.viewer.close()
         metrics = run_metrics(
-            self.sequence, self.slam, self._labelled, trajectory, graph, points, self.clock,
+            self.sequence, self.slam, self.journal.labels, trajectory, graph, points, self.clock,
             self.warnings,
         )  # fmt: skip
         self.recorder.write_metrics(metrics)
         if failure is not None:
             raise failure
         return metrics
+
+    def _settle(self) -> None:
+        """Write down where frames turned out to be."""
+        apart, labels = self.journal.settle(), self.journal.labels
+        self.topology.keep(self.slam.placed_poses)
+        self.recorder.rewrite_frames(labels, self.sequence.stamps_s[len(labels) :])
+        for number, way in enumerate(apart, 1):
+            self.recorder.write_submap(number, way)
+
+    def _fuse(self) -> PointMap:
+        with self.clock.stage("map"):
+            return self.slam.build_map()
+
+    def _write(self, trajectory: Trajectory, graph: SemanticGraph, surveyed: Survey | None) -> None:
+        """Write all but the cloud."""
+        placed = self.slam.placed_poses
+        keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
+        self.recorder.write_trajectory(trajectory)
+        self.recorder.write_graph(graph)
+        if keyframes:
+            stamps_s = {k.id: k.stamp_s for k in keyframes}
+            self.recorder.write_pose_graph(self.slam.mapper.graph, stamps_s)
+        self.recorder.write_memory(remember(keyframes, placed))
+        if surveyed is not None:
+            self.recorder.write_occupancy(surveyed.grid)
 
     def _wait(self) -> Exception | None:
         """Wait for the keyframes in the making; return what went wrong, to be raised at the end."""
@@ -243,43 +260,14 @@ class Pipeline:
             return error
         return None
 
-    def _place(self) -> None:
-        """Say at last of each frame whether its place in the world became known.
-
-        Frames of a sub-map that was joined count as relocalised where they were lost; those of a
-        sub-map that never was are lost, and keep the way they went in a file of its own.
-        """
-        apart: dict[int, list[tuple[float, NDArray[np.float64]]]] = {}
-        for i, label in enumerate(self._labelled):
-            tracking, anchor = label.tracking, label.tracking.anchor
-            if anchor is None:
-                continue
-            if self.slam.is_placed(anchor):
-                state = tracking.state
-                if state is TrackingState.LOST:
-                    state = TrackingState.RELOCALISED
-                tracking = replace(tracking, state=state)
-            else:
-                submap = self.slam.mapper.graph.component_of(anchor.keyframe)
-                way = (tracking.stamp_s, self.slam.pose_of(anchor))
-                apart.setdefault(submap, []).append(way)
-                tracking = replace(
-                    tracking, state=TrackingState.LOST, inliers=0, method="none", anchor=None,
-                    T_world_camera=None,
-                )  # fmt: skip
-            self._labelled[i] = replace(label, tracking=tracking)
-        self.topology.keep(self.slam.placed_poses)
-        self.recorder.rewrite_frames(self._labelled, self.sequence.stamps_s[len(self._labelled) :])
-        for number, ways in enumerate(apart.values(), 1):
-            self.recorder.write_submap(number, _trajectory_of(ways))
-
     def _survey(self) -> Survey | None:
         """Find the floor and the free space of the map as it is now."""
         settings = self.settings.slam
-        found = survey(
-            self.slam.keyframes, self.slam.placed_poses, settings.ground, settings.space,
-            settings.noise,
-        )  # fmt: skip
+        with self.clock.stage("survey"):
+            found = survey(
+                self.slam.keyframes, self.slam.placed_poses, settings.ground, settings.space,
+                settings.noise,
+            )  # fmt: skip
         for warning in () if found is None else found.warnings:
             logger.warning("%s", warning)
             self.warnings.append(warning)
@@ -287,58 +275,12 @@ class Pipeline:
 
     def _final_graph(self, surveyed: Survey | None) -> SemanticGraph:
         """Return the graph with the places' extents and the doorways between them."""
-        graph = self.topology.snapshot(self.slam.keyframe_poses)
-        if surveyed is None:
-            return graph
-        known = set(surveyed.keyframes)
-        votes = [
-            Vote(label.tracking.index, self.slam.pose_of(anchor)[:3, 3], label.label, label.score)
-            for label in self._labelled
-            if (anchor := label.tracking.anchor) is not None and anchor.keyframe in known
-        ]
-        return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
-
-    def _way(self) -> list[tuple[Tracking, Anchor]]:
-        """Return the labelled frames that have a place in the world, and what holds their pose."""
-        return [
-            (label.tracking, anchor)
-            for label in self._labelled
-            if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
-        ]
-
-    def _trajectory(self) -> Trajectory:
-        return _trajectory_of([(t.stamp_s, self.slam.pose_of(anchor)) for t, anchor in self._way()])
-
-    def _map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
-        T = self.slam.placed_poses
-        links = [k for k in self.slam.links if k.first in T and k.second in T]
-        ends = np.array([(T[k.first][:3, 3], T[k.second][:3, 3]) for k in links])
-        loops = np.array([link.is_loop for link in links], dtype=bool)
-        ends = ends.reshape(-1, 2, 3)
-        way = self._way()
-        return MapView(
-            points, self._label_ids(points, graph), tuple(T),
-            np.array(list(T.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
-            self._trajectory().positions, tuple(t.index for t, _ in way),
-            tuple(t.state for t, _ in way),
-        )  # fmt: skip
-
-    def _label_ids(self, points: PointMap, graph: SemanticGraph | None) -> NDArray[np.uint16]:
-        """Give each map point the label of the place it lies in, else of the keyframe that saw it.
-
-        Without a place's extent, what is seen through a door bears the label of this side of it.
-        """
-        of_keyframe = np.zeros(max(self.slam.keyframe_poses, default=0) + 1, dtype=np.uint16)
-        for label in self._labelled:
-            tracking = label.tracking
-            if tracking.is_keyframe and tracking.anchor is not None:
-                of_keyframe[tracking.anchor.keyframe] = label.label_id
-        seen_from = of_keyframe[points.keyframes]
-        if graph is None or not graph.extents:
-            return seen_from
-        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
-        place = places_at(graph, points.points_world)
-        return np.where(place >= 0, of_extent[place], seen_from)
+        with self.clock.stage("extents"):
+            graph = self.topology.snapshot(self.slam.keyframe_poses)
+            if surveyed is None:
+                return graph
+            votes = self.journal.votes(surveyed.keyframes)
+            return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
 
     def _session(self) -> SessionView:
         truth = self.sequence.ground_truth
@@ -355,14 +297,9 @@ class Pipeline:
 
     def _state(self, tracking: Tracking) -> str:
         said = [tracking.state.value, f"{len(self.slam.keyframe_poses)} keyframes"]
-        if self.labels.names[1:] and self._labelled:
-            said.insert(1, self._labelled[-1].label)
+        if self.labels.names[1:] and self.journal.labels:
+            said.insert(1, self.journal.labels[-1].label)
         return ", ".join(said)
-
-
-def _trajectory_of(way: list[tuple[float, NDArray[np.float64]]]) -> Trajectory:
-    stamps = np.array([stamp for stamp, _ in way])
-    return Trajectory(stamps, np.array([T for _, T in way]).reshape(-1, 4, 4))
 
 
 def _events(tracking: Tracking) -> list[str]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.camera import Intrinsics
-from slam.kernels import HOLD, bundle_equations, bundle_errors, landmark_steps
+from slam.equations import HOLD, bundle_equations, bundle_errors, landmark_steps
 from slam.noise import SensorNoise
 from slam.refine import CHI2_95, inverse_variances
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datasets import poses
+from slam.compiled import compiled
 from slam.fusion import Voxels
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
@@ -62,9 +63,12 @@ def look_again(
         T_camera_world = poses.inverse(T_world_keyframe[keyframe]).astype(np.float32)
         near, far, through = _bounds(image, noise, np.sqrt(3.0) * voxel_m)
         chosen = blocks.in_view(T_camera_world, image, far)
-        which, z, cell = _seen_at(voxels.points, chosen, T_camera_world, image)
-        sightings.through[which] += z < through.ravel()[cell]
-        sightings.on[which] += (z >= near.ravel()[cell]) & (z <= far.ravel()[cell])
+        K = image.intrinsics
+        _compare(
+            voxels.points, chosen, T_camera_world,
+            np.array([K.fx, K.fy, K.cx, K.cy], dtype=np.float32), near, far, through,
+            sightings.on, sightings.through,
+        )  # fmt: skip
     return sightings
 
 
@@ -134,18 +138,36 @@ def _blocks(voxels: Voxels, voxel_m: float) -> _Blocks:
     )  # fmt: skip
 
 
-def _seen_at(
+@compiled
+def _compare(
     points_world: Float32Array,
     chosen: NDArray[np.intp],
     T_camera_world: Float32Array,
-    image: RangeImage,
-) -> tuple[NDArray[np.intp], Float32Array, NDArray[np.intp]]:
-    """Return which points fall into the image, their depths and in which cell (row by row)."""
-    K = image.intrinsics
-    x, y, z = T_camera_world[:3, :3] @ points_world[chosen].T + T_camera_world[:3, 3:]
-    safe = np.maximum(z, np.float32(NEAREST_M))
-    column = np.rint(x / safe * np.float32(K.fx) + np.float32(K.cx))
-    row = np.rint(y / safe * np.float32(K.fy) + np.float32(K.cy))
-    inside = (z > NEAREST_M) & (column >= 0) & (column < K.width) & (row >= 0) & (row < K.height)
-    cell = row[inside].astype(np.intp) * K.width + column[inside].astype(np.intp)
-    return chosen[inside], z[inside], cell
+    K: Float32Array,
+    near: Float32Array,
+    far: Float32Array,
+    before: Float32Array,
+    on: NDArray[np.int32],
+    through: NDArray[np.int32],
+) -> None:
+    """Count which of the chosen points a view shows, and which it sees through.
+
+    Parameters
+    ----------
+    K : (4,) float32
+        fx, fy, cx, cy.
+    near, far, before : (H, W) float32
+        As `_bounds` returns them.
+    """
+    T, (height, width) = T_camera_world, near.shape
+    for i in chosen:
+        px, py, pz = points_world[i, 0], points_world[i, 1], points_world[i, 2]
+        z = T[2, 0] * px + T[2, 1] * py + T[2, 2] * pz + T[2, 3]
+        if z <= NEAREST_M:
+            continue
+        x = T[0, 0] * px + T[0, 1] * py + T[0, 2] * pz + T[0, 3]
+        y = T[1, 0] * px + T[1, 1] * py + T[1, 2] * pz + T[1, 3]
+        column, row = int(np.rint(x / z * K[0] + K[2])), int(np.rint(y / z * K[1] + K[3]))
+        if 0 <= column < width and 0 <= row < height:
+            through[i] += z < before[row, column]
+            on[i] += near[row, column] <= z <= far[row, column]

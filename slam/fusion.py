@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from datasets import poses
+from slam.compiled import compiled
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
 from slam.voxels import VoxelTable, cells_of, grown, keys_of
@@ -147,28 +148,77 @@ class Fusion:
     ) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.uint16]]:
         """Return the voxels (N,) that an image falls into, the sums (N, 10), the depths (N,)."""
         points = image.points
-        R = T_world_keyframe[:3, :3].astype(np.float32)
         # In voxels, float64: far from the origin float32 would not resolve a voxel.
         scaled = poses.transform(T_world_keyframe, points) / self.voxel_m
         cells = np.floor(scaled)
         keys = keys_of(cells.astype(np.int32))
-        # Only numbers the voxels: the points are summed as they come, so ties may fall anyhow.
+        # Ties fall alike each time, so what is taken out again is what was added.
         order = np.argsort(keys)
-        sorted_keys = keys[order]
-        first = np.r_[True, sorted_keys[1:] != sorted_keys[:-1]][: len(keys)]
-        group = np.empty(len(keys), np.intp)
-        group[order] = np.cumsum(first) - 1
-        count = np.bincount(group)
-        columns = [
-            *((scaled - cells).T * FINEST_OFFSET - 0.5), *image.colours.T,
-            *(_guessed(image.normals(self.noise), points) @ R.T * LONGEST_NORMAL).T,
-        ]  # fmt: skip
-        means = [np.bincount(group, column) / count for column in columns]
-        depth = np.bincount(group, points[:, 2]) / count
-        share = (self.noise.depth_floor_m / self.noise.depth_sigma(depth)) ** 2
-        weight = np.maximum(np.rint(LARGEST_WEIGHT * share), 1)
-        sums = np.rint(np.stack([np.ones_like(weight), *means], axis=-1)) * weight[:, None]
-        return sorted_keys[first], sums.astype(np.int32), np.rint(depth * 1000).astype(np.uint16)
+        normals = _guessed(image.normals(self.noise), points)
+        first, sums, depth_m = _summed(
+            order, keys[order], scaled - cells, image.colours, normals,
+            T_world_keyframe[:3, :3], points[:, 2],
+            np.array([self.noise.depth_floor_m, self.noise.depth_quadratic]),
+        )  # fmt: skip
+        return keys[order[first]], sums, np.rint(depth_m * 1000).astype(np.uint16)
+
+
+@compiled
+def _summed(
+    order: NDArray[np.intp],
+    keys: NDArray[np.int64],
+    offsets: FloatArray,
+    colours: NDArray[np.uint8],
+    normals: NDArray[np.float32],
+    R: FloatArray,
+    z: NDArray[np.float32],
+    noise: FloatArray,
+) -> tuple[NDArray[np.intp], NDArray[np.int32], FloatArray]:
+    """Sum what a view's points (N,) give to the voxels (M,) that they fall into.
+
+    Parameters
+    ----------
+    order, keys : (N,) int
+        The points sorted by voxel, and these voxels.
+    offsets, colours, normals, z : (N, 3), (N, 3), (N, 3), (N,)
+        Of the points as they come: within their voxel, and in the camera.
+    R : (3, 3) float64
+        R_world_camera.
+    noise : (2,) float64
+        Standard deviation of a depth: at no distance, and what a square metre adds.
+
+    Returns
+    -------
+    first, sums, depth : (M,), (M, 10), (M,)
+        Where each voxel begins in `order`; weight, offset, colour and normal; the mean depth.
+    """
+    count = 0
+    for n in range(len(keys)):
+        count += n == 0 or keys[n] != keys[n - 1]
+    first, sums = np.empty(count, np.intp), np.empty((count, 10), np.int32)
+    depth = np.empty(count)
+    total, n = np.empty(9), 0
+    for row in range(count):
+        first[row] = n
+        total[:] = 0.0
+        far, key = 0.0, keys[n]
+        while n < len(keys) and keys[n] == key:
+            i = order[n]
+            far += z[i]
+            for k in range(3):
+                total[k] += offsets[i, k] * FINEST_OFFSET - 0.5
+                total[3 + k] += colours[i, k]
+                turned = R[k, 0] * normals[i, 0] + R[k, 1] * normals[i, 1] + R[k, 2] * normals[i, 2]
+                total[6 + k] += turned * LONGEST_NORMAL
+            n += 1
+        points = n - first[row]
+        depth[row] = far / points
+        share = noise[0] / (noise[0] + noise[1] * depth[row] ** 2)
+        weight = max(np.rint(LARGEST_WEIGHT * share * share), 1.0)
+        sums[row, 0] = weight
+        for k in range(9):
+            sums[row, 1 + k] = np.rint(total[k] / points) * weight
+    return first, sums, depth
 
 
 def _guessed(normals: NDArray[np.float32], points: NDArray[np.float32]) -> NDArray[np.float32]:

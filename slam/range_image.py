@@ -52,8 +52,13 @@ class RangeImage:
     @property
     def points(self) -> NDArray[np.float32]:
         """The points seen (M, 3) in the camera's frame, metres, row by row."""
-        depth, (x, y) = self.depth, self._rays()
-        return np.stack([depth * x, depth * y, depth], axis=-1)[self.depth_mm > 0]
+        seen = np.flatnonzero(self.depth_mm)
+        row, column = np.divmod(seen, self.depth_mm.shape[1])
+        x, y = self._rays()
+        z = self.depth_mm.ravel()[seen] / np.float32(UNITS_PER_M)
+        points = np.empty((len(seen), 3), np.float32)
+        points[:, 0], points[:, 1], points[:, 2] = z * x[column], z * y[row, 0], z
+        return points
 
     @property
     def colours(self) -> NDArray[np.uint8]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from datasets import poses
 from datasets.camera import Intrinsics
-from slam.kernels import HOLD, motion_equations
+from slam.equations import HOLD, motion_equations
 from slam.motion import Correspondences
 from slam.noise import SensorNoise
 

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from datasets import poses
 from datasets.settings import Settings
+from slam.compiled import compiled
 from slam.ground import Ground
 from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
@@ -83,7 +84,7 @@ def carve(
     In a keyframe a cell with a surface is hit, not passed, as in OctoMap (Hornung et al., 2013,
     section 5.1). A reading whose noise exceeds a cell's half hits nothing: it only carves, up to
     twice its noise and a cell before where it ends, so that walls stay as thin as they are.
-    Hits lie half a cell behind the surface (see `_behind`).
+    Hits lie half a cell behind the surface.
 
     Parameters
     ----------
@@ -101,23 +102,98 @@ def carve(
     kept = [k for k in keyframes if k.id in T_world_keyframe]
     T_map_keyframe = {k.id: ground.T_map_world @ T_world_keyframe[k.id] for k in kept}
     space = _empty(kept, T_map_keyframe, settings)
-    # Who wrote to a cell last: tells, without sorting, which of a keyframe's samples came first.
-    last = np.zeros(space.hits.size, dtype=np.int32)
-    is_hit = np.zeros(space.hits.size, dtype=bool)
-    hits, passes = space.hits.reshape(-1), space.passes.reshape(-1)
-    for keyframe in kept:
-        T, cloud = T_map_keyframe[keyframe.id], keyframe.cloud
-        sigma = noise.depth_sigma(cloud[:, 2])
-        sure = cloud[sigma <= space.cell_m / 2]
-        hit = _once(_index(space, poses.transform(T, _behind(sure, space.cell_m / 2))), last)
-        is_hit[hit] = True
-        few = slice(keyframe.id % settings.ray_every, None, settings.ray_every)
-        samples = _samples(T, cloud[few], 2 * sigma[few] + space.cell_m, space.cell_m)
-        passed = _once(_index(space, samples), last)
-        hits[hit] += 1
-        passes[passed[~is_hit[passed]]] += 1
-        is_hit[hit] = False
+    low, high = space.heights_m[:2]
+    lattice = np.array([*space.origin_xy, low, space.cell_m, high - low])
+    sigma = np.array([noise.depth_floor_m, noise.depth_quadratic])
+    # Of each cell: twice the number of the keyframe that last saw it, and 1 if that hit it.
+    last = np.zeros(space.hits.shape, dtype=np.int32)
+    for number, keyframe in enumerate(kept, 1):
+        _carve(
+            T_map_keyframe[keyframe.id], keyframe.cloud, keyframe.id % settings.ray_every,
+            settings.ray_every, lattice, sigma, 2 * number, last, space.hits, space.passes,
+        )  # fmt: skip
     return space
+
+
+@compiled
+def _carve(
+    T: FloatArray,
+    cloud: NDArray[np.float32],
+    first: int,
+    every: int,
+    lattice: FloatArray,
+    noise: FloatArray,
+    stamp: int,
+    last: NDArray[np.int32],
+    hits: NDArray[np.uint16],
+    passes: NDArray[np.uint16],
+) -> None:
+    """Count what a keyframe hits and sees through, each cell once; hits go before passes.
+
+    Parameters
+    ----------
+    T : (4, 4) float64
+        T_map_keyframe.
+    cloud : (N, 3) float32
+        All of these hit; from the `first`, one in `every` is followed from the camera.
+    lattice : (5,) float64
+        x and y of the outer corner, height of the second layer, side of a cell, layer's height.
+    noise : (2,) float64
+        Standard deviation of a depth: at no distance, and what a square metre adds.
+    stamp : int
+        Even, and larger than any before.
+    """
+    cell = lattice[3]
+    # From the camera to cells: columns, rows, layers.
+    A, start = np.empty((3, 3)), np.empty(3)
+    for k in range(3):
+        side = lattice[4] if k == 2 else cell
+        A[k], start[k] = T[k, :3] / side, (T[k, 3] - lattice[k]) / side
+    start[2] += 1.0  # Below the second layer lies the first.
+    # What lies further below the floor than the floor is thick is not there.
+    lowest = 1.0 - 2.0 * lattice[2] / lattice[4]
+    for i in range(len(cloud)):
+        x, y, z = cloud[i, 0], cloud[i, 1], cloud[i, 2]
+        if noise[0] + noise[1] * z * z > cell / 2:
+            continue
+        # What is solid lies behind the surface: half a cell on is the first cell that is mostly
+        # solid, and what is left free before it is, on average, as wide as the room.
+        on = 1.0 + 0.5 * cell / max(np.sqrt(x * x + y * y + z * z), 1e-6)
+        layer, row, column = _cell(
+            start[0] + on * (A[0, 0] * x + A[0, 1] * y + A[0, 2] * z),
+            start[1] + on * (A[1, 0] * x + A[1, 1] * y + A[1, 2] * z),
+            start[2] + on * (A[2, 0] * x + A[2, 1] * y + A[2, 2] * z),
+            lowest, hits.shape,
+        )  # fmt: skip
+        if layer >= 0 and last[layer, row, column] != stamp + 1:
+            last[layer, row, column] = stamp + 1
+            hits[layer, row, column] += 1
+    for i in range(first, len(cloud), every):
+        x, y, z = cloud[i, 0], cloud[i, 1], cloud[i, 2]
+        length = np.sqrt(x * x + y * y + z * z)
+        step = cell / length
+        dx = step * (A[0, 0] * x + A[0, 1] * y + A[0, 2] * z)
+        dy = step * (A[1, 0] * x + A[1, 1] * y + A[1, 2] * z)
+        dz = step * (A[2, 0] * x + A[2, 1] * y + A[2, 2] * z)
+        margin = 2 * (noise[0] + noise[1] * z * z) + cell
+        for n in range(int((length - margin) / cell)):
+            at = n + 0.5
+            layer, row, column = _cell(
+                start[0] + at * dx, start[1] + at * dy, start[2] + at * dz, lowest, hits.shape
+            )
+            if layer >= 0 and last[layer, row, column] < stamp:
+                last[layer, row, column] = stamp
+                passes[layer, row, column] += 1
+
+
+@compiled
+def _cell(
+    x: float, y: float, z: float, lowest: float, shape: tuple[int, int, int]
+) -> tuple[int, int, int]:
+    """Return layer, row and column of a point, given in cells; a layer of -1 is off the grid."""
+    if z <= lowest or x < 0 or y < 0 or x >= shape[2] or y >= shape[1]:
+        return -1, 0, 0
+    return int(min(max(z, 0.0), shape[0] - 1.0)), int(y), int(x)
 
 
 def _empty(
@@ -149,51 +225,3 @@ def _bounds(points: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
     low = np.min([p.min(axis=0) for p in points], axis=0)
     high = np.max([p.max(axis=0) for p in points], axis=0)
     return np.asarray(low), np.asarray(high)
-
-
-def _behind(points_camera: NDArray[np.float32], way_m: float) -> NDArray[np.float32]:
-    """Move points (N, 3) on along their rays.
-
-    What is solid lies behind the surface: half a cell on is the first cell that is mostly solid,
-    and what is left free before it is, on average, as wide as the room.
-    """
-    length = np.linalg.norm(points_camera, axis=1, keepdims=True)
-    return np.asarray(points_camera * (1 + np.float32(way_m) / np.maximum(length, 1e-6)))
-
-
-def _samples(
-    T_map_camera: FloatArray,
-    points_camera: NDArray[np.float32],
-    margin_m: FloatArray,
-    step_m: float,
-) -> NDArray[np.float32]:
-    """Return points of the map frame (N, 3), a step apart, along the rays to points (M, 3)."""
-    length = np.linalg.norm(points_camera, axis=1)
-    counts = np.maximum(0, (length - margin_m) / step_m).astype(np.intp)
-    rank = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    R, t = T_map_camera[:3, :3].astype(np.float32), T_map_camera[:3, 3].astype(np.float32)
-    steps = (points_camera / np.maximum(length, 1e-6)[:, None]) @ R.T * np.float32(step_m)
-    along = (rank + 0.5).astype(np.float32)
-    return np.asarray(np.repeat(steps, counts, axis=0) * along[:, None] + t)
-
-
-def _index(space: Space, points_map: NDArray[np.floating]) -> NDArray[np.int32]:
-    """Return flat indices of the cells that points (N, 3) lie in; those below the floor are off."""
-    layers, rows, columns = space.hits.shape
-    low = float(space.heights_m[0])
-    height = float(space.heights_m[1]) - low
-    # Truncation does for rounding down: what is left of the grid's first cell is off anyway.
-    layer = ((points_map[:, 2] - (low - height)) / height).astype(np.int32)
-    np.clip(layer, 0, layers - 1, out=layer)
-    column = ((points_map[:, 0] - float(space.origin_xy[0])) / space.cell_m).astype(np.int32)
-    row = ((points_map[:, 1] - float(space.origin_xy[1])) / space.cell_m).astype(np.int32)
-    inside = (points_map[:, 2] > -low) & (row >= 0) & (row < rows)
-    inside &= (column >= 0) & (column < columns)
-    return np.asarray(((layer * rows + row) * columns + column)[inside])
-
-
-def _once(index: NDArray[np.int32], last: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return indices without repetition; `last` is scratch of the grid's size."""
-    order = np.arange(len(index), dtype=np.int32)
-    last[index] = order
-    return np.asarray(index[last[index] == order])

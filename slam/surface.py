@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
-from slam.kernels import surface_equations
+from slam.equations import surface_equations
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
 from slam.view import EDGE_SHARE, without_edges

@@ -1,36 +1,23 @@
-"""Inner loops, compiled to machine code and free of Python's lock.
+"""The normal equations of motions, bundles and surfaces, compiled.
 
-All are in this file because a change here is what makes them be compiled anew; the result is kept
-beside it, or in the user's cache folder. Functions elsewhere say what they are for.
+What calls each other is in this file together: see `slam.compiled`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
-
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from slam.compiled import compiled
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Added to the diagonals of systems, so that directions that nothing measures stay as they are.
 HOLD = 1e-6
 
 
-def _compiled(function: Function) -> Function:
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
-    try:
-        compiled: Function = numba.njit(function, cache=True, **options)
-    except RuntimeError:  # There is no folder that it could be kept in.
-        compiled = numba.njit(function, **options)
-    return compiled
-
-
-@_compiled
+@compiled
 def _observe(
     T: FloatArray,
     points: FloatArray,
@@ -72,7 +59,7 @@ def _observe(
     return z
 
 
-@_compiled
+@compiled
 def motion_equations(
     T: FloatArray,
     points: FloatArray,
@@ -142,7 +129,7 @@ def motion_equations(
     return error, H, g
 
 
-@_compiled
+@compiled
 def bundle_errors(
     T: FloatArray,
     landmarks: FloatArray,
@@ -164,7 +151,7 @@ def bundle_errors(
     return error
 
 
-@_compiled
+@compiled
 def bundle_equations(
     T: FloatArray,
     slots: IntArray,
@@ -263,7 +250,7 @@ def bundle_equations(
     return H, g, inverse, gradient, coupling
 
 
-@_compiled
+@compiled
 def landmark_steps(
     steps: FloatArray,
     slots: IntArray,
@@ -290,7 +277,7 @@ def landmark_steps(
     return total
 
 
-@_compiled
+@compiled
 def _product(a: FloatArray, b: FloatArray, result: FloatArray) -> None:
     """Multiply (N, 3) by (3, 3)."""
     for i in range(len(a)):
@@ -298,7 +285,7 @@ def _product(a: FloatArray, b: FloatArray, result: FloatArray) -> None:
             result[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
 
 
-@_compiled
+@compiled
 def _invert(A: FloatArray, result: FloatArray) -> None:
     """Invert a symmetric (3, 3) matrix that is positive semidefinite, and held a little."""
     a, b, c = A[0, 0] + HOLD, A[1, 1] + HOLD, A[2, 2] + HOLD
@@ -313,7 +300,7 @@ def _invert(A: FloatArray, result: FloatArray) -> None:
             result[i, j] /= determinant
 
 
-@_compiled
+@compiled
 def surface_equations(
     T: FloatArray,
     cloud: FloatArray,
