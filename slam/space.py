@@ -84,7 +84,7 @@ def carve(
     In a keyframe a cell with a surface is hit, not passed, as in OctoMap (Hornung et al., 2013,
     section 5.1). A reading whose noise exceeds a cell's half hits nothing: it only carves, up to
     twice its noise and a cell before where it ends, so that walls stay as thin as they are.
-    Hits lie half a cell behind the surface.
+    Hits lie half a cell behind the surface, along its normal.
 
     Parameters
     ----------
@@ -109,8 +109,9 @@ def carve(
     last = np.zeros(space.hits.shape, dtype=np.int32)
     for number, keyframe in enumerate(kept, 1):
         _carve(
-            T_map_keyframe[keyframe.id], keyframe.cloud, keyframe.id % settings.ray_every,
-            settings.ray_every, lattice, sigma, 2 * number, last, space.hits, space.passes,
+            T_map_keyframe[keyframe.id], keyframe.cloud, keyframe.image.normals(noise),
+            keyframe.id % settings.ray_every, settings.ray_every, lattice, sigma, 2 * number, last,
+            space.hits, space.passes,
         )  # fmt: skip
     return space
 
@@ -119,6 +120,7 @@ def carve(
 def _carve(
     T: FloatArray,
     cloud: NDArray[np.float32],
+    normals: NDArray[np.float32],
     first: int,
     every: int,
     lattice: FloatArray,
@@ -134,8 +136,9 @@ def _carve(
     ----------
     T : (4, 4) float64
         T_map_keyframe.
-    cloud : (N, 3) float32
-        All of these hit; from the `first`, one in `every` is followed from the camera.
+    cloud, normals : (N, 3) float32
+        All of these hit; the normals look to the camera, or are 0. From the `first`, one in
+        `every` is followed from the camera.
     lattice : (5,) float64
         x and y of the outer corner, height of the second layer, side of a cell, layer's height.
     noise : (2,) float64
@@ -158,11 +161,15 @@ def _carve(
             continue
         # What is solid lies behind the surface: half a cell on is the first cell that is mostly
         # solid, and what is left free before it is, on average, as wide as the room.
-        on = 1.0 + 0.5 * cell / max(np.sqrt(x * x + y * y + z * z), 1e-6)
+        nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
+        if nx == 0 and ny == 0 and nz == 0:
+            length = max(np.sqrt(x * x + y * y + z * z), 1e-6)
+            nx, ny, nz = -x / length, -y / length, -z / length
+        x, y, z = x - 0.5 * cell * nx, y - 0.5 * cell * ny, z - 0.5 * cell * nz
         layer, row, column = _cell(
-            start[0] + on * (A[0, 0] * x + A[0, 1] * y + A[0, 2] * z),
-            start[1] + on * (A[1, 0] * x + A[1, 1] * y + A[1, 2] * z),
-            start[2] + on * (A[2, 0] * x + A[2, 1] * y + A[2, 2] * z),
+            start[0] + A[0, 0] * x + A[0, 1] * y + A[0, 2] * z,
+            start[1] + A[1, 0] * x + A[1, 1] * y + A[1, 2] * z,
+            start[2] + A[2, 0] * x + A[2, 1] * y + A[2, 2] * z,
             lowest, hits.shape,
         )  # fmt: skip
         if layer >= 0 and last[layer, row, column] != stamp + 1:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from datasets import poses
 from datasets.camera import Intrinsics
+from slam.features import Features
+from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
 from slam.planes import PlaneSettings, extract_planes
+from slam.range_image import RangeImage
 
 CAMERA = Intrinsics(120, 90, 98.0, 98.0, 59.5, 44.5)
 # Optical axes (x right, y down, z forward) of a camera that looks along the map's x.
@@ -54,7 +55,7 @@ def box_room(x0, y0, x1, y1, doors=(), height=2.5, thick=0.1, lintel=2.0):
 
 
 def look(boxes, T_map_camera, rng=None, max_depth_m=4.0):
-    """Return the cloud (N, 3) float32 that a camera has of boxes, with noise if `rng` is given."""
+    """Return the range image that a camera has of boxes, with noise if `rng` is given."""
     u, v = np.meshgrid(np.arange(CAMERA.width), np.arange(CAMERA.height))
     pixels = np.column_stack([u.ravel(), v.ravel()]).astype(float)
     rays = CAMERA.backproject(pixels, np.ones(len(pixels)))
@@ -69,8 +70,8 @@ def look(boxes, T_map_camera, rng=None, max_depth_m=4.0):
     depth = np.where(nearest < max_depth_m, nearest, 0.0)
     if rng is not None:
         depth = depth + (depth > 0) * NOISE.depth_sigma(depth) * rng.normal(size=len(depth))
-    kept = depth > 0
-    return (rays[kept] * depth[kept, None]).astype(np.float32)
+    depth_mm = np.rint(depth * 1000).astype(np.uint16).reshape(CAMERA.height, CAMERA.width)
+    return RangeImage(depth_mm, np.zeros((*depth_mm.shape, 3), np.uint8), CAMERA)
 
 
 def keyframes(boxes, cameras, T_world_map=None, rng=None, with_planes=True):
@@ -78,12 +79,13 @@ def keyframes(boxes, cameras, T_world_map=None, rng=None, with_planes=True):
     T_world_map = poses.inverse(cameras[0]) if T_world_map is None else T_world_map
     made, T_world = [], {}
     for i, T in enumerate(cameras):
-        cloud = look(boxes, T, rng)
+        image = look(boxes, T, rng)
         planes = ()
-        if with_planes and len(cloud):
-            planes = extract_planes(cloud.astype(float), NOISE, PlaneSettings(), 0)
+        if with_planes and image.depth_mm.any():
+            planes = extract_planes(image.points.astype(float), NOISE, PlaneSettings(), 0)
+        words = np.empty(0, dtype=np.intp)
         made.append(
-            SimpleNamespace(id=i, frame_index=i, stamp_s=i / 30, cloud=cloud, planes=planes)
+            Keyframe(i, i, i / 30, Features.none(), np.empty((0, 3)), words, planes, image, CAMERA)
         )
         T_world[i] = T_world_map @ T
     return made, T_world
