@@ -18,6 +18,8 @@ _HALF_VIEW = np.array([0.50, 0.43])
 _MIN_DISTANCE_M = 1.5
 # Kept in sight on all sides of the path: the camera, or where no map is known yet, the rooms.
 _CAMERA_M, _ROOM_M = 0.4, 2.0
+# Points in one such square of the floor plan go by the same part of the path.
+_CELL_M = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +79,12 @@ def below_ceiling(
     if not len(points_world) or not len(path):
         return np.ones(len(points_world), dtype=bool)
     across = np.linalg.svd(up[None])[2][1:].T
-    _, nearest = KDTree(path @ across).query(points_world @ across)
-    return np.asarray(points_world @ up <= (path @ up)[nearest] + headroom_m)
+    cells = np.floor(points_world @ across / _CELL_M).astype(np.int64)
+    columns = int(cells[:, 1].max() - cells[:, 1].min()) + 1
+    numbers = cells[:, 0] * columns + cells[:, 1]
+    _, first, cell = np.unique(numbers, return_index=True, return_inverse=True)
+    nearest = np.asarray(KDTree(path @ across).query((cells[first] + 0.5) * _CELL_M)[1])
+    return np.asarray(points_world @ up <= (path @ up)[nearest[cell]] + headroom_m)
 
 
 def frame_scene(points_world: FloatArray, path: FloatArray, axes: Axes) -> Framing:

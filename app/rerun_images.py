@@ -15,17 +15,18 @@ DEPTH_UNITS_PER_M = 100.0
 _PNG = (cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE)
 
 
-def encode_colour(frame: Frame, quality: int) -> bytes:
-    """Return the colour image as JPEG."""
+def encode_colour(frame: Frame, quality: int) -> NDArray[np.uint8]:
+    """Return the colour image as JPEG, the bytes of the file."""
     bgr = cv2.cvtColor(frame.colour, cv2.COLOR_RGB2BGR)
-    return bytes(cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])[1])
+    # Rerun takes an array eight times as fast as Python's bytes.
+    return np.asarray(cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])[1])
 
 
-def encode_depth(frame: Frame, step: int) -> bytes:
-    """Return every `step`-th row and column of the depth as 16-bit PNG in centimetres."""
+def encode_depth(frame: Frame, step: int) -> NDArray[np.uint8]:
+    """Return every `step`-th row and column of the depth as 16-bit PNG in centimetres, as bytes."""
     raw = frame.depth[::step, ::step] * DEPTH_UNITS_PER_M + 0.5
     image = np.minimum(raw, np.iinfo(np.uint16).max).astype(np.uint16)
-    return bytes(cv2.imencode(".png", image, _PNG)[1])
+    return np.asarray(cv2.imencode(".png", image, _PNG)[1])
 
 
 def thinned(intrinsics: Intrinsics, step: int) -> Intrinsics:

@@ -8,6 +8,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from app.viewer import MapView
+from datasets.camera import Intrinsics
 from datasets.frame import Frame
 
 FloatArray = NDArray[np.float64]
@@ -30,12 +31,14 @@ class KeyframePictures:
 
     def __init__(self, spacing_m: float, turn_deg: float) -> None:
         self._spacing_m, self._cos_turn = spacing_m, float(np.cos(np.radians(turn_deg)))
-        self._pictures: dict[int, rr.Mesh3D] = {}
+        self._pictures: dict[int, tuple[NDArray[np.uint8], Intrinsics]] = {}
         self._drawn: dict[int, FloatArray] = {}
 
     def keep(self, keyframe: int, frame: Frame) -> None:
         """Take in what a keyframe saw."""
-        self._pictures[keyframe] = _picture(frame)
+        height = max(1, round(frame.colour.shape[0] * _WIDTH / frame.colour.shape[1]))
+        small = cv2.resize(frame.colour, (_WIDTH, height), interpolation=cv2.INTER_AREA)
+        self._pictures[keyframe] = small, frame.intrinsics
 
     def draw(self, recording: rr.RecordingStream, view: MapView) -> None:
         """Draw those that are new in the map, and move along those that it has moved."""
@@ -45,7 +48,7 @@ class KeyframePictures:
                 picture = self._pictures.pop(keyframe)
                 if self._is_apart(T):
                     self._put(recording, keyframe, T)
-                    recording.log(f"world/keyframes/{keyframe}", picture)
+                    recording.log(f"world/keyframes/{keyframe}", _picture(*picture))
             elif before is not None and np.abs(T[:3] - before[:3]).max() > _MOVED_M:
                 self._put(recording, keyframe, T)
 
@@ -62,14 +65,11 @@ class KeyframePictures:
         recording.log(f"world/keyframes/{keyframe}", pose)
 
 
-def _picture(frame: Frame) -> rr.Mesh3D:
+def _picture(small: NDArray[np.uint8], camera: Intrinsics) -> rr.Mesh3D:
     """Return a frame's small image as a plane that fills the camera's view.
 
     Not as an image in a camera: Rerun complains of those at times before they are there.
     """
-    height = max(1, round(frame.colour.shape[0] * _WIDTH / frame.colour.shape[1]))
-    small = cv2.resize(frame.colour, (_WIDTH, height), interpolation=cv2.INTER_AREA)
-    camera = frame.intrinsics
     right, bottom = camera.width - 0.5, camera.height - 0.5
     pixels = np.array([(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)])
     return rr.Mesh3D(

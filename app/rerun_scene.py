@@ -94,10 +94,10 @@ def _pinhole(camera: Intrinsics) -> rr.Pinhole:
     )  # fmt: skip
 
 
-def depth_image(png: bytes) -> rr.EncodedDepthImage:
+def depth_image(png: NDArray[np.uint8]) -> rr.EncodedDepthImage:
     """Return the recorded depth image."""
     return rr.EncodedDepthImage(
-        png, media_type="image/png", meter=DEPTH_UNITS_PER_M, colormap="turbo",
+        png, media_type="image/png", meter=DEPTH_UNITS_PER_M, colormap=rr.components.Colormap.Turbo,
         depth_range=(0.0, 5.0 * DEPTH_UNITS_PER_M),
     )  # fmt: skip
 
