@@ -29,8 +29,8 @@ def with_extents(
 
     All that lies in one room belongs to one place, whatever a single view looked like: this mends
     what a view through a door into the next room got wrong, and a room entered by two doors or
-    twice is one. Where no label prevails in a region, as in an open plan, the region is parted
-    between the labels by the nearest node.
+    twice is one. Where no label prevails in a region and several hold a room's worth of its floor,
+    as in an open plan, the region is parted between the labels by the nearest node.
 
     Parameters
     ----------
@@ -57,7 +57,9 @@ def with_extents(
     voted = {vote.frame for vote in votes}
     is_here = np.array([node.frame in voted for node in graph.nodes])
     of_nodes = np.where(is_here, _lookup(regions.seen, node_cells, reach), 0)
-    parts, images = make_parts(graph, node_cells, regions, of_nodes, of_frames, votes, settings)
+    parts, images = make_parts(
+        graph, node_cells, regions, of_nodes, of_frames, votes, space.cell_m, settings
+    )
     names = _names(parts)
     nodes = _placed(graph, parts, names, is_here)
     extents = tuple(

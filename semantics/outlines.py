@@ -42,7 +42,9 @@ def centre_of(mask: NDArray[np.bool_], space: Space) -> FloatArray:
 
 def largest_piece(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return the largest of the pieces that cells fall into."""
-    pieces, _ = ndimage.label(mask)
+    pieces, count = ndimage.label(mask)
+    if count <= 1:
+        return mask
     return np.asarray(pieces == np.bincount(pieces[mask]).argmax())
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from scipy import ndimage
 from datasets.settings import Settings
 from semantics.graph import SemanticGraph
 from semantics.labels import UNKNOWN
+from semantics.outlines import largest_piece
 from semantics.region_settings import RegionSettings
 from semantics.regions import Regions
 
@@ -31,6 +32,11 @@ class ExtentSettings(Settings):
         gt=0,
         le=1,
         description="of a region's votes, the share that a part of it needs",
+    )
+    min_part_m2: float = Field(
+        8.0,
+        ge=0,
+        description="floor in one piece that a part of a region needs: a room's, not a corner's",
     )
     min_doorway_m: float = Field(0.4, ge=0, description="narrower gaps are no doorways")
 
@@ -62,9 +68,14 @@ def make_parts(
     of_nodes: NDArray[np.int32],
     of_frames: NDArray[np.int32],
     votes: Sequence[Vote],
+    cell_m: float,
     settings: ExtentSettings,
 ) -> tuple[list[Part], Regions]:
-    """Make a part of each visited region, or several; return them with their images."""
+    """Make a part of each visited region, or several; return them with their images.
+
+    A part of an open plan is a room's worth of floor in one piece. Labels that hold less, here and
+    there, are what views of the one room were mistaken for.
+    """
     seen, full = np.zeros_like(regions.seen), np.zeros_like(regions.full)
     parts: list[Part] = []
     for region in dict.fromkeys(int(r) for r in of_nodes if r):
@@ -75,7 +86,15 @@ def make_parts(
         kept = [label for label in kept if any(graph.nodes[i].label == label for i in inside)]
         if not kept or max(shares.values()) >= settings.min_agreement:
             kept = [max(shares, key=lambda label: shares[label])] if shares else [UNKNOWN]
-        nearest = _nearest_label(graph, node_cells, inside, kept, regions.seen.shape)
+        kept, nearest = _parted(
+            kept,
+            shares,
+            graph,
+            node_cells,
+            inside,
+            regions.full == region,
+            settings.min_part_m2 / cell_m**2,
+        )
         for which, label in enumerate(kept):
             number = len(parts) + 1
             for image, source in ((seen, regions.seen), (full, regions.full)):
@@ -86,6 +105,29 @@ def make_parts(
     return sorted(parts, key=lambda part: min(part.nodes, default=len(graph.nodes))), Regions(
         seen, full
     )
+
+
+def _parted(
+    labels: list[str],
+    shares: Mapping[str, float],
+    graph: SemanticGraph,
+    node_cells: NDArray[np.intp],
+    inside: NDArray[np.intp],
+    region: NDArray[np.bool_],
+    least_cells: float,
+) -> tuple[list[str], NDArray[np.intp]]:
+    """Return the labels that hold enough of a region, and which of them each cell (R, C) has."""
+    while True:
+        nearest = _nearest_label(graph, node_cells, inside, labels, region.shape)
+        small = [
+            label
+            for k, label in enumerate(labels)
+            if np.count_nonzero(largest_piece(region & (nearest == k))) < least_cells
+        ]
+        if len(labels) == 1 or not small:
+            return labels, nearest
+        weakest = min(small, key=lambda label: shares[label])
+        labels = [label for label in labels if label != weakest]
 
 
 def _shares(votes: Sequence[Vote]) -> dict[str, float]:

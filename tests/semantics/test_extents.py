@@ -102,11 +102,18 @@ def test_a_room_seen_through_a_door_is_not_where_the_camera_is(surveyed):
 
 def test_an_open_plan_is_parted_between_its_labels(surveyed):
     walk = [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), (2.4, 2.0, "office"), *WALK[1:]]
-    graph = found_in(surveyed, walk)
+    graph = found_in(surveyed, walk, SETTINGS.model_copy(update={"min_part_m2": 3.0}))
     assert [n.place for n in graph.nodes[:4]] == ["kitchen1", "kitchen1", "office1", "office1"]
     areas = {extent.name: extent.area_m2 for extent in graph.extents}
     assert areas["kitchen1"] + areas["office1"] == pytest.approx(9.0, rel=0.1)
     assert ("kitchen1", "office1") in {door.places for door in graph.doorways}
+
+
+def test_a_corner_that_looks_like_something_else_is_no_room(surveyed):
+    walk = [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), (2.4, 2.0, "office"), *WALK[1:]]
+    graph = found_in(surveyed, walk)
+    assert {n.place for n in graph.nodes[:4]} == {"office1"}
+    assert "kitchen1" not in graph.places
 
 
 def test_without_labels_there_are_rooms(surveyed):
