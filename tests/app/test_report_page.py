@@ -17,7 +17,8 @@ from app.errors import AppError
 from app.floor_lines import doorway_ends
 from app.report import summary
 from app.report_evidence import place_reasons
-from app.report_page import found_words, write_report
+from app.report_page import write_report
+from app.report_summary import found_words
 from app.run_folder import RunFolder
 from app.thumbnails import ThumbnailWriter, read_thumbnails
 from semantics.graph import Doorway, Extent, SemanticGraph
