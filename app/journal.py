@@ -60,9 +60,10 @@ class Journal:
                     state = TrackingState.RELOCALISED
                 tracking = replace(tracking, state=state)
             else:
-                submap = self.slam.mapper.graph.component_of(anchor.keyframe)
-                way = (tracking.stamp_s, self.slam.pose_of(anchor))
-                apart.setdefault(submap, []).append(way)
+                if anchor.keyframe in self.slam.keyframes:  # else it failed in the making
+                    submap = self.slam.mapper.graph.component_of(anchor.keyframe)
+                    way = (tracking.stamp_s, self.slam.pose_of(anchor))
+                    apart.setdefault(submap, []).append(way)
                 tracking = replace(
                     tracking, state=TrackingState.LOST, inliers=0, method="none", anchor=None,
                     T_world_camera=None,

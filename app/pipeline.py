@@ -201,17 +201,18 @@ class Pipeline:
         trajectory = self.journal.trajectory()
         with ThreadPoolExecutor(1, thread_name_prefix="map") as pool:
             fused = pool.submit(self._fuse)
+            with self.clock.stage("write"):
+                self._write_way(trajectory)
             surveyed = self._survey()
             graph = self._final_graph(surveyed)
-            with self.clock.stage("write"):
-                self._write(trajectory, graph, surveyed)
+            with self.clock.stage("write graph"):
+                self._write_graph(graph, surveyed)
             points = fused.result()
-        view = self.journal.map_view(points, graph)
         with self.clock.stage("view"):
-            last = max(0, len(self.journal.labels) - 1)
+            last, view = max(0, len(self.journal.labels) - 1), self.journal.map_view(points, graph)
             self.viewer.show_map(last, lambda: view)
             self.viewer.show_graph(last, graph)
-        with self.clock.stage("write"):
+        with self.clock.stage("write map"):
             self.recorder.write_map(points, view.label_ids, self.labels)
         with self.clock.stage("close"):
             self.viewer.close()
@@ -236,16 +237,18 @@ class Pipeline:
         with self.clock.stage("map"):
             return self.slam.build_map()
 
-    def _write(self, trajectory: Trajectory, graph: SemanticGraph, surveyed: Survey | None) -> None:
-        """Write all but the cloud."""
+    def _write_way(self, trajectory: Trajectory) -> None:
+        """Write where the camera was, and what its keyframes saw."""
         placed = self.slam.placed_poses
         keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
         self.recorder.write_trajectory(trajectory)
-        self.recorder.write_graph(graph)
         if keyframes:
             stamps_s = {k.id: k.stamp_s for k in keyframes}
             self.recorder.write_pose_graph(self.slam.mapper.graph, stamps_s)
         self.recorder.write_memory(remember(keyframes, placed))
+
+    def _write_graph(self, graph: SemanticGraph, surveyed: Survey | None) -> None:
+        self.recorder.write_graph(graph)
         if surveyed is not None:
             self.recorder.write_occupancy(surveyed.grid)
 

@@ -25,11 +25,14 @@ from semantics.graph_io import read_graph_json
 from slam.errors import SlamError
 from slam.evaluation import compare
 
-# What the stages of a run are called. The first two run in a thread, ahead of the others.
+# What the stages of a run are called. Some run in a thread beside the others.
 _STAGES = {
     "read": "reading images (beside)", "features": "features (beside)", "track": "tracking",
-    "view": "showing and recording", "label": "labelling", "graph": "graph", "map": "final map",
-    "survey": "floor and free space", "extents": "rooms and doorways", "write": "writing files",
+    "view": "showing and recording", "label": "labelling", "graph": "graph",
+    "map": "final map (beside)",
+    "survey": "floor and free space", "extents": "rooms and doorways",
+    "write": "writing trajectory and keyframes", "write graph": "writing graph and grid",
+    "write map": "writing the cloud",
     "close": "ending the recording",
 }  # fmt: skip
 

@@ -74,7 +74,7 @@ def below_ceiling(
 ) -> NDArray[np.bool_]:
     """Tell which points (N, 3) are at most `headroom_m` above the nearest part of the path (F, 3).
 
-    The nearest part on the floor plan: a path may lead up the stairs.
+    The nearest part on the floor plan, to within a few decimetres: a path may lead up the stairs.
     """
     if not len(points_world) or not len(path):
         return np.ones(len(points_world), dtype=bool)

@@ -40,6 +40,11 @@ class Intrinsics:
     distortion: tuple[float, ...] = ()
 
     @property
+    def parameters(self) -> NDArray[np.float64]:
+        """``fx, fy, cx, cy`` (4,), pixels."""
+        return np.array([self.fx, self.fy, self.cx, self.cy])
+
+    @property
     def K(self) -> NDArray[np.float64]:
         """The (3, 3) camera matrix."""
         return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1.0]])

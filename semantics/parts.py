@@ -116,15 +116,20 @@ def _parted(
     region: NDArray[np.bool_],
     least_cells: float,
 ) -> tuple[list[str], NDArray[np.intp]]:
-    """Return the labels that hold enough of a region, and which of them each cell (R, C) has."""
+    """Return the labels that hold enough of a region, and which of them each cell (R, C) has.
+
+    The one most voted for always does.
+    """
     while True:
         nearest = _nearest_label(graph, node_cells, inside, labels, region.shape)
+        strongest = max(labels, key=lambda label: shares.get(label, 0.0))
         small = [
             label
             for k, label in enumerate(labels)
-            if np.count_nonzero(largest_piece(region & (nearest == k))) < least_cells
+            if label != strongest
+            and np.count_nonzero(largest_piece(region & (nearest == k))) < least_cells
         ]
-        if len(labels) == 1 or not small:
+        if not small:
             return labels, nearest
         weakest = min(small, key=lambda label: shares[label])
         labels = [label for label in labels if label != weakest]

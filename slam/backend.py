@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,6 +75,8 @@ class Backend:
         self._mappers = ThreadPoolExecutor(1, thread_name_prefix="mapper")
         self._pending: deque[_Pending] = deque()
         self._closures: list[LoopClosure] = []
+        # By keyframe; made of the links when it is asked for.
+        self._neighbours: defaultdict[int, set[int]] | None = None
         self._next = 0
 
     def start(self, view: View, T_world_camera: FloatArray) -> int:
@@ -101,9 +103,7 @@ class Backend:
 
         Goes by what is known of the map now: nothing is waited for but features.
         """
-        pairs = [(link.first, link.second) for link in self.links]
-        pairs += [(k.reference, k.id) for k in self._pending if k.reference is not None]
-        linked = {b if a == reference else a for a, b in pairs if reference in (a, b)}
+        linked = self._linked(reference)
         chosen = like_minded(reference, linked, self.poses, self.mapper.settings.neighbours)
         return local_map([(self._described(k), self.poses[k]) for k in chosen])
 
@@ -116,6 +116,27 @@ class Backend:
         """Return the loops that became known since last asked."""
         found, self._closures = tuple(self._closures), []
         return found
+
+    def _linked(self, reference: int) -> set[int]:
+        """Return the keyframes linked to one; of one in the making, those that are likely to be.
+
+        These are the others on the way back to one that is done, what hangs on all these, and what
+        that one is linked to.
+        """
+        making = {pending.id: pending.reference for pending in self._pending}
+        way, done = {reference}, reference
+        while (before := making.get(done)) is not None:
+            done = before
+            way.add(done)
+        for keyframe, before in making.items():  # in the order in which they were handed in
+            if before in way:
+                way.add(keyframe)
+        if self._neighbours is None:
+            self._neighbours = defaultdict(set)
+            for link in self.links:
+                self._neighbours[link.first].add(link.second)
+                self._neighbours[link.second].add(link.first)
+        return (way | self._neighbours[done]) - {reference}
 
     def _described(self, keyframe: int) -> Described:
         """Return a keyframe, done or in the making."""
@@ -145,7 +166,7 @@ class Backend:
             self._abandon()
             raise
         self._pending.popleft()
-        self.poses, self.links = dict(update.poses), update.links
+        self.poses, self.links, self._neighbours = dict(update.poses), update.links, None
         self.placed = set(update.placed)
         self.keyframes[update.keyframe.id] = update.keyframe
         self._closures.extend(update.closures)
@@ -155,6 +176,8 @@ class Backend:
         """Give up the keyframes in the making, after one that failed."""
         for pending in self._pending:
             pending.update.cancel()
+        # The map is at rest only once what runs already has come to its end.
+        wait([pending.update for pending in self._pending])
         self._pending.clear()
 
     def _chain(self) -> None:

@@ -115,7 +115,7 @@ class _System:
         self._seen = seen.cameras, seen.landmarks
         self._measured = (
             *self._seen, seen.pixels, seen.depths, inverse_variances(seen.depths, noise),
-            np.array([intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy]),
+            intrinsics.parameters,
         )  # fmt: skip
         self._free = int(is_free.sum())
         self._slots = np.where(is_free, np.cumsum(is_free) - 1, -1)

@@ -63,11 +63,9 @@ def look_again(
         T_camera_world = poses.inverse(T_world_keyframe[keyframe]).astype(np.float32)
         near, far, through = _bounds(image, noise, np.sqrt(3.0) * voxel_m)
         chosen = blocks.in_view(T_camera_world, image, far)
-        K = image.intrinsics
         _compare(
-            voxels.points, chosen, T_camera_world,
-            np.array([K.fx, K.fy, K.cx, K.cy], dtype=np.float32), near, far, through,
-            sightings.on, sightings.through,
+            voxels.points, chosen, T_camera_world, image.intrinsics.parameters.astype(np.float32),
+            near, far, through, sightings.on, sightings.through,
         )  # fmt: skip
     return sightings
 

@@ -1,4 +1,4 @@
-"""The normal equations of motions, bundles and surfaces, compiled.
+"""The normal equations of motions and bundles, compiled.
 
 What calls each other is in this file together: see `slam.compiled`.
 """
@@ -15,6 +15,8 @@ IntArray = NDArray[np.intp]
 
 # Added to the diagonals of systems, so that directions that nothing measures stay as they are.
 HOLD = 1e-6
+# Nothing is seen from nearer than this, metres; a projection from there means nothing.
+NEAREST_M = 1e-3
 
 
 @compiled
@@ -28,19 +30,19 @@ def _observe(
     K: FloatArray,
     residual: FloatArray,
     J: FloatArray,
-) -> float:
+) -> bool:
     """Compare the i-th point, moved by `T`, with the n-th pixel and depth that a camera measured.
 
     Fills `residual` (3,), two pixels and an inverse depth, which is 0 where the measured one is
-    NaN, and `J` (3, 6), its derivatives by a left step of the motion. Returns the depth that the
-    point has; nothing is filled in unless that is positive.
+    NaN, and `J` (3, 6), its derivatives by a left step of the motion. Returns whether the point
+    lies before the camera; nothing is filled in unless it does.
     """
     px, py, pz = points[i, 0], points[i, 1], points[i, 2]
     x = T[0, 0] * px + T[0, 1] * py + T[0, 2] * pz + T[0, 3]
     y = T[1, 0] * px + T[1, 1] * py + T[1, 2] * pz + T[1, 3]
-    z: float = T[2, 0] * px + T[2, 1] * py + T[2, 2] * pz + T[2, 3]
-    if z <= 0.0:
-        return z
+    z = T[2, 0] * px + T[2, 1] * py + T[2, 2] * pz + T[2, 3]
+    if not z > NEAREST_M:
+        return False
     d = 1.0 / z
     u, v = x * d, y * d
     fx, fy = K[0], K[1]
@@ -56,7 +58,7 @@ def _observe(
     else:
         residual[2] = J[2, 0] = J[2, 1] = J[2, 5] = 0.0
     J[2, 2] = J[2, 3] = J[2, 4] = 0.0
-    return z
+    return True
 
 
 @compiled
@@ -96,7 +98,7 @@ def motion_equations(
     residual, J = np.empty(3), np.empty((3, 6))
     along, inverse, scaled, column = np.empty(3), np.empty(3), np.empty(3), np.empty(6)
     for n in range(len(points)):
-        if _observe(T, points, n, pixels, depths, n, K, residual, J) <= 0.0:
+        if not _observe(T, points, n, pixels, depths, n, K, residual, J):
             continue
         # The inverse covariance is a diagonal less one column times itself (Sherman & Morrison).
         total, shift, squares = 1.0, 0.0, 0.0
@@ -144,7 +146,7 @@ def bundle_errors(
     error = np.full(len(cameras), np.inf)
     residual, J = np.empty(3), np.empty((3, 6))
     for n in range(len(cameras)):
-        if _observe(T[cameras[n]], landmarks, seen[n], pixels, depths, n, K, residual, J) > 0.0:
+        if _observe(T[cameras[n]], landmarks, seen[n], pixels, depths, n, K, residual, J):
             error[n] = 0.0
             for k in range(3):
                 error[n] += inverse_variance[n, k] * residual[k] ** 2
@@ -204,7 +206,7 @@ def bundle_equations(
             n, camera = last, cameras[last]
             last += 1
             pose = T[camera]
-            if _observe(pose, landmarks, landmark, pixels, depths, n, K, residual, J) <= 0.0:
+            if not _observe(pose, landmarks, landmark, pixels, depths, n, K, residual, J):
                 continue
             error = 0.0
             for k in range(3):
@@ -287,83 +289,19 @@ def _product(a: FloatArray, b: FloatArray, result: FloatArray) -> None:
 
 @compiled
 def _invert(A: FloatArray, result: FloatArray) -> None:
-    """Invert a symmetric (3, 3) matrix that is positive semidefinite, and held a little."""
-    a, b, c = A[0, 0] + HOLD, A[1, 1] + HOLD, A[2, 2] + HOLD
-    d, e, f = A[0, 1], A[0, 2], A[1, 2]
-    result[0, 0], result[1, 1], result[2, 2] = b * c - f * f, a * c - e * e, a * b - d * d
-    result[0, 1] = result[1, 0] = e * f - c * d
-    result[0, 2] = result[2, 0] = d * f - b * e
-    result[1, 2] = result[2, 1] = d * e - a * f
-    determinant = a * result[0, 0] + d * result[0, 1] + e * result[0, 2]
-    for i in range(3):
-        for j in range(3):
-            result[i, j] /= determinant
+    """Invert a symmetric (3, 3) matrix that is positive semidefinite, and held a little.
 
-
-@compiled
-def surface_equations(
-    T: FloatArray,
-    cloud: FloatArray,
-    normals: FloatArray,
-    offsets: FloatArray,
-    shape: tuple[int, int],
-    K: FloatArray,
-    noise: FloatArray,
-    max_distance: float,
-) -> tuple[FloatArray, FloatArray, int]:
-    """Sum the point-to-plane equations of a cloud on a surface; see `surface.align_surface`.
-
-    Parameters
-    ----------
-    T : (4, 4) float64
-        T_target_cloud.
-    cloud : (N, 3) float64
-    normals, offsets : (H W, 3), (H W,) float64
-        The surface's planes, n . p = offset, by cell; NaN where there is none.
-    shape : (int, int)
-        H and W.
-    K : (4,) float64
-        fx, fy, cx, cy, in cells.
-    noise : (2,) float64
-        Standard deviation of a depth: at no distance, and what a square metre adds.
-    max_distance : float
-        Points further off a plane are left out, metres.
-
-    Returns
-    -------
-    H, g : (6, 6), (6,) float64
-    count : int
-        Of the points that lie on planes.
+    By its factors L D L^T, as landmarks seen from one side make it all but singular.
     """
-    H, g, J, count = np.zeros((6, 6)), np.zeros(6), np.empty(6), 0
-    height, width = shape
-    for i in range(len(cloud)):
-        px, py, pz = cloud[i]
-        z = T[2, 0] * px + T[2, 1] * py + T[2, 2] * pz + T[2, 3]
-        if not z > 0.1:
-            continue
-        x = T[0, 0] * px + T[0, 1] * py + T[0, 2] * pz + T[0, 3]
-        y = T[1, 0] * px + T[1, 1] * py + T[1, 2] * pz + T[1, 3]
-        column, row = round(K[0] * x / z + K[2]), round(K[1] * y / z + K[3])
-        if column < 0 or column >= width or row < 0 or row >= height:
-            continue
-        cell = row * width + column
-        nx, ny, nz = normals[cell]
-        r = x * nx + y * ny + z * nz - offsets[cell]
-        if not abs(r) < max_distance:  # also drops what has no normal
-            continue
-        count += 1
-        sigma = noise[0] + noise[1] * z * z
-        # Neighbouring readings err together: count one in ten. Cauchy's kernel.
-        weight = 0.1 / (sigma * sigma + r * r)
-        J[0], J[1], J[2] = y * nz - z * ny, z * nx - x * nz, x * ny - y * nx
-        J[3], J[4], J[5] = nx, ny, nz
-        for a in range(6):
-            scaled = weight * J[a]
-            g[a] += scaled * r
-            for b in range(a + 1):
-                H[a, b] += scaled * J[b]
-    for a in range(6):
-        for b in range(a):
-            H[b, a] = H[a, b]
-    return H, g, count
+    a = A[0, 0] + HOLD
+    p, q = A[0, 1] / a, A[0, 2] / a
+    b = A[1, 1] + HOLD - p * A[0, 1]
+    r = (A[1, 2] - p * A[0, 2]) / b
+    c = max(A[2, 2] + HOLD - q * A[0, 2] - r * r * b, HOLD)
+    s = p * r - q  # The inverse of L has -p, s and -r below its diagonal.
+    result[0, 0] = 1.0 / a + p * p / b + s * s / c
+    result[1, 1] = 1.0 / b + r * r / c
+    result[2, 2] = 1.0 / c
+    result[0, 1] = result[1, 0] = -p / b - s * r / c
+    result[0, 2] = result[2, 0] = s / c
+    result[1, 2] = result[2, 1] = -r / c

@@ -158,7 +158,7 @@ class Fusion:
         first, sums, depth_m = _summed(
             order, keys[order], scaled - cells, image.colours, normals,
             T_world_keyframe[:3, :3], points[:, 2],
-            np.array([self.noise.depth_floor_m, self.noise.depth_quadratic]),
+            self.noise.coefficients,
         )  # fmt: skip
         return keys[order[first]], sums, np.rint(depth_m * 1000).astype(np.uint16)
 

@@ -74,9 +74,10 @@ class Mapper:
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
 
     def describe(self, keyframe_id: int, view: View) -> Keyframe:
-        """Make a keyframe of a view; needs nothing of the map, so it may run ahead in a thread.
+        """Make a keyframe of a view; may run ahead in a thread of its own.
 
-        Views are to come in order: what they look like is told in words found on the way.
+        Of the map it only changes the vocabulary, which grows on the way: views are to come in
+        order.
         """
         frame = view.frame
         image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)

@@ -22,6 +22,14 @@ class SensorNoise(Settings):
         0.0025, ge=0, le=0.1, description="depth error added for each square metre of depth"
     )
 
+    @property
+    def coefficients(self) -> NDArray[np.float64]:
+        """The two numbers (2,) that compiled loops have `depth_sigma` from."""
+        return np.array([self.depth_floor_m, self.depth_quadratic])
+
     def depth_sigma(self, depth_m: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Return the standard deviation (N,) of readings `depth_m` (N,), metres."""
+        """Return the standard deviation (N,) of readings `depth_m` (N,), metres.
+
+        The same formula is in the compiled loops of `surface`, `space` and `fusion`.
+        """
         return np.asarray(self.depth_floor_m + self.depth_quadratic * depth_m**2, dtype=np.float64)

@@ -52,7 +52,7 @@ def refine_motion(
     found: Correspondences,
     intrinsics: Intrinsics,
     noise: SensorNoise,
-    iterations: int = 12,
+    iterations: int = 50,
     width: float = 1.0,
 ) -> RefinedMotion:
     """Improve a motion by iteratively reweighted Gauss-Newton.
@@ -106,7 +106,7 @@ class _System:
             found.points, found.points * (noise.depth_sigma(z) / z), found.pixels, found.depths,
             inverse_variances(found.depths, noise),
         )  # fmt: skip
-        self._K = np.array([intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy])
+        self._K = intrinsics.parameters
 
     def at(
         self, T: FloatArray, bound: float = np.inf, power: int = CAUCHY

@@ -89,7 +89,7 @@ def carve(
     Parameters
     ----------
     keyframes : iterable of Keyframe
-        With their clouds.
+        With their images.
     T_world_keyframe : mapping of int to (4, 4) float64
         Their poses.
     ground : Ground
@@ -104,7 +104,7 @@ def carve(
     space = _empty(kept, T_map_keyframe, settings)
     low, high = space.heights_m[:2]
     lattice = np.array([*space.origin_xy, low, space.cell_m, high - low])
-    sigma = np.array([noise.depth_floor_m, noise.depth_quadratic])
+    sigma = noise.coefficients
     # Of each cell: twice the number of the keyframe that last saw it, and 1 if that hit it.
     last = np.zeros(space.hits.shape, dtype=np.int32)
     for number, keyframe in enumerate(kept, 1):
@@ -198,7 +198,7 @@ def _cell(
     x: float, y: float, z: float, lowest: float, shape: tuple[int, int, int]
 ) -> tuple[int, int, int]:
     """Return layer, row and column of a point, given in cells; a layer of -1 is off the grid."""
-    if z <= lowest or x < 0 or y < 0 or x >= shape[2] or y >= shape[1]:
+    if not (z > lowest and 0 <= x < shape[2] and 0 <= y < shape[1]):  # nor where it is NaN
         return -1, 0, 0
     return int(min(max(z, 0.0), shape[0] - 1.0)), int(y), int(x)
 

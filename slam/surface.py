@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from datasets import poses
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
-from slam.equations import surface_equations
+from slam.compiled import compiled
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
 from slam.view import EDGE_SHARE, without_edges
@@ -50,29 +50,16 @@ class Surface:
         """All points (N, 3)."""
         return np.asarray(self.points[np.isfinite(self.points[..., 2])])
 
-    def cells(self, points: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Look up where points (N, 3) project to.
-
-        Returns
-        -------
-        which : (M,) int
-            Those in view.
-        cells : (M,) int
-            The cell that each falls into, counted row by row.
-        """
+    def at(self, points: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+        """Return which of points (N, 3) fall onto a reading (M,), and what is there (M, 3)."""
         height, width = self.points.shape[:2]
         which = np.flatnonzero(points[:, 2] > 0.1)
-        x, y, z = points.T if len(which) == len(points) else points[which].T
+        x, y, z = points[which].T
         K = self.intrinsics
         columns = np.rint((K.fx * x / z + K.cx) / self.stride).astype(np.intp)
         rows = np.rint((K.fy * y / z + K.cy) / self.stride).astype(np.intp)
         inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
-        return which[inside], rows[inside] * width + columns[inside]
-
-    def at(self, points: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-        """Return which of points (N, 3) fall onto a reading (M,), and what is there (M, 3)."""
-        which, cells = self.cells(points)
-        found = self.points.reshape(-1, 3)[cells]
+        which, found = which[inside], self.points[rows[inside], columns[inside]]
         known = np.isfinite(found[:, 2])
         return which[known], found[known]
 
@@ -132,12 +119,17 @@ def align_surface(
     normals = target.normals.reshape(-1, 3)
     # Each cell's plane is n . p = offset.
     offsets = np.einsum("ni,ni->n", normals, target.points.reshape(-1, 3))
-    camera = target.intrinsics
-    K = np.array([camera.fx, camera.fy, camera.cx, camera.cy]) / target.stride
-    sigma = np.array([noise.depth_floor_m, noise.depth_quadratic])
+    K = target.intrinsics.parameters / target.stride
     for _ in range(iterations):
-        found, g, count = surface_equations(
-            T, cloud, normals, offsets, target.points.shape[:2], K, sigma, max_distance_m
+        found, g, count = _equations(
+            T,
+            cloud,
+            normals,
+            offsets,
+            target.points.shape[:2],
+            K,
+            noise.coefficients,
+            max_distance_m,
         )
         if count < 100:
             break
@@ -149,3 +141,72 @@ def align_surface(
         if np.abs(step).max() < CONVERGED:
             break
     return T, H
+
+
+@compiled
+def _equations(
+    T: FloatArray,
+    cloud: FloatArray,
+    normals: FloatArray,
+    offsets: FloatArray,
+    shape: tuple[int, int],
+    K: FloatArray,
+    noise: FloatArray,
+    max_distance: float,
+) -> tuple[FloatArray, FloatArray, int]:
+    """Sum the point-to-plane equations of a cloud on a surface; see `align_surface`.
+
+    Parameters
+    ----------
+    T : (4, 4) float64
+        T_target_cloud.
+    cloud : (N, 3) float64
+    normals, offsets : (H W, 3), (H W,) float64
+        The surface's planes, n . p = offset, by cell; NaN where there is none.
+    shape : (int, int)
+        H and W.
+    K : (4,) float64
+        fx, fy, cx, cy, in cells.
+    noise : (2,) float64
+        Standard deviation of a depth: at no distance, and what a square metre adds.
+    max_distance : float
+        Points further off a plane are left out, metres.
+
+    Returns
+    -------
+    H, g : (6, 6), (6,) float64
+    count : int
+        Of the points that lie on planes.
+    """
+    H, g, J, count = np.zeros((6, 6)), np.zeros(6), np.empty(6), 0
+    height, width = shape
+    for i in range(len(cloud)):
+        px, py, pz = cloud[i]
+        z = T[2, 0] * px + T[2, 1] * py + T[2, 2] * pz + T[2, 3]
+        if not z > 0.1:
+            continue
+        x = T[0, 0] * px + T[0, 1] * py + T[0, 2] * pz + T[0, 3]
+        y = T[1, 0] * px + T[1, 1] * py + T[1, 2] * pz + T[1, 3]
+        column, row = round(K[0] * x / z + K[2]), round(K[1] * y / z + K[3])
+        if column < 0 or column >= width or row < 0 or row >= height:
+            continue
+        cell = row * width + column
+        nx, ny, nz = normals[cell]
+        r = x * nx + y * ny + z * nz - offsets[cell]
+        if not abs(r) < max_distance:  # also drops what has no normal
+            continue
+        count += 1
+        sigma = noise[0] + noise[1] * z * z
+        # Neighbouring readings err together: count one in ten. Cauchy's kernel.
+        weight = 0.1 / (sigma * sigma + r * r)
+        J[0], J[1], J[2] = y * nz - z * ny, z * nx - x * nz, x * ny - y * nx
+        J[3], J[4], J[5] = nx, ny, nz
+        for a in range(6):
+            scaled = weight * J[a]
+            g[a] += scaled * r
+            for b in range(a + 1):
+                H[a, b] += scaled * J[b]
+    for a in range(6):
+        for b in range(a):
+            H[b, a] = H[a, b]
+    return H, g, count

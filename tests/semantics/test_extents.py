@@ -110,10 +110,18 @@ def test_an_open_plan_is_parted_between_its_labels(surveyed):
 
 
 def test_a_corner_that_looks_like_something_else_is_no_room(surveyed):
-    walk = [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), (2.4, 2.0, "office"), *WALK[1:]]
-    graph = found_in(surveyed, walk)
-    assert {n.place for n in graph.nodes[:4]} == {"office1"}
+    offices = [(2.4, 2.0, "office"), (2.4, 1.0, "office")]
+    graph = found_in(surveyed, [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), *offices, *WALK[1:]])
+    assert {n.place for n in graph.nodes[:5]} == {"office1"}
     assert "kitchen1" not in graph.places
+
+
+def test_what_most_views_say_is_never_dropped(surveyed):
+    # Long in a corner that looks like a kitchen, shortly in the rest.
+    corner = [(0.5, 2.0 + 0.02 * i, "kitchen") for i in range(4)]
+    walk = [*corner, (2.4, 2.0, "office"), (2.4, 1.0, "office"), *WALK[3:]]
+    graph = found_in(surveyed, walk)
+    assert {n.label for n in graph.nodes[:6]} == {"kitchen"}
 
 
 def test_without_labels_there_are_rooms(surveyed):
