@@ -25,6 +25,8 @@ FloatArray = NDArray[np.float64]
 
 # Focal lengths that the search starts from, in units of the given ones.
 STARTS = (1.0, 0.8, 1.25)
+# Focal lengths further off than this, as a logarithm, are not to be believed.
+FARTHEST = np.log(4.0)
 # Steps of the adjustment; it ends when focal lengths move less than the last.
 ITERATIONS, CONVERGED = 15, 1e-4
 
@@ -138,7 +140,7 @@ def measure_focal(
 ) -> Focal | None:
     """Adjust focal lengths, principal point and all motions to fit the pairs best.
 
-    None where too few pairs are matched consistently.
+    None where too few pairs are matched consistently, or these do not tell.
     """
     best: list[tuple[Pair, FloatArray]] = []
     camera = start = pairs[0].camera
@@ -179,8 +181,11 @@ def _adjust(
     start: Intrinsics,
     settings: CalibrationSettings,
     noise: SensorNoise,
-) -> Focal:
-    """Gauss-Newton over log fx, log fy, cx, cy and a motion a pair; motions are eliminated."""
+) -> Focal | None:
+    """Gauss-Newton over log fx, log fy, cx, cy and a motion a pair; motions are eliminated.
+
+    None where that runs away, as it does where the pairs hold next to nothing.
+    """
     theta = np.array([np.log(start.fx), np.log(start.fy), start.cx, start.cy])
     centre = np.array([0.0, 0.0, given.cx, given.cy])
     spread = settings.principal_share * given.width
@@ -199,6 +204,8 @@ def _adjust(
             eliminated.append((A, B, a))
         step = -np.linalg.solve(H, g)
         theta = theta + step
+        if np.abs(theta[:2] - np.log([given.fx, given.fy])).max() > FARTHEST:
+            return None
         motions = [
             poses.exponential(-np.linalg.solve(A, a + B @ step)) @ T
             for (A, B, a), T in zip(eliminated, motions, strict=True)
