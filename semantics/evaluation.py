@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from datasets.places import PlaceTruth
 from semantics.graph import SemanticGraph
@@ -124,6 +123,8 @@ def evaluate_instances(graph: SemanticGraph, truth: PlaceTruth) -> InstanceAccur
     table = np.array([[shared[room, place] for place in places] for room in rooms]).reshape(
         len(rooms), len(places)
     )
+    from scipy.optimize import linear_sum_assignment
+
     rows, columns = linear_sum_assignment(table, maximize=True)
     pairs = [(r, c) for r, c in zip(rows, columns, strict=True) if table[r, c]]
     return InstanceAccuracy(

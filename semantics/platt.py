@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 from scipy.special import expit, log_softmax
 from scipy.special import softmax as _softmax
 
@@ -45,6 +44,8 @@ def fit_sigmoid(
         return float(value.sum()), np.array([slope @ decisions, slope.sum()])
 
     start = np.array([1.0, np.log((n_positive + 1) / (n_negative + 1))])
+    from scipy.optimize import minimize  # A third of a second that only training needs.
+
     result = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=[(0, None), (None, None)])
     return float(result.x[0]), float(result.x[1])
 
@@ -81,4 +82,6 @@ def fit_softmax(
 
     start = np.concatenate([[1.0], np.zeros(decisions.shape[1])])
     bounds = [(0, None)] + [(None, None)] * decisions.shape[1]
+    from scipy.optimize import minimize
+
     return np.asarray(minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds).x)
