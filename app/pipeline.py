@@ -19,7 +19,7 @@ from app.journal import Journal
 from app.metrics import run_metrics
 from app.prefetch import prefetch
 from app.recorder import Recorder
-from app.viewer import SessionView, Viewer
+from app.viewer import MapView, SessionView, Viewer
 from datasets import poses
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
@@ -198,24 +198,7 @@ class Pipeline:
         self._label_but(0)
         self._take(self.labeller.finish())
         self._settle()
-        trajectory = self.journal.trajectory()
-        with ThreadPoolExecutor(1, thread_name_prefix="map") as pool:
-            fused = pool.submit(self._fuse)
-            with self.clock.stage("write"):
-                self._write_way(trajectory)
-            surveyed = self._survey()
-            graph = self._final_graph(surveyed)
-            with self.clock.stage("write graph"):
-                self._write_graph(graph, surveyed)
-            points = fused.result()
-        with self.clock.stage("view"):
-            last, view = max(0, len(self.journal.labels) - 1), self.journal.map_view(points, graph)
-            self.viewer.show_map(last, lambda: view)
-            self.viewer.show_graph(last, graph)
-        with self.clock.stage("write map"):
-            self.recorder.write_map(points, view.label_ids, self.labels)
-        with self.clock.stage("close"):
-            self.viewer.close()
+        trajectory, graph, points = self._products()
         metrics = run_metrics(
             self.sequence, self.slam, self.journal.labels, trajectory, graph, points, self.clock,
             self.warnings,
@@ -224,6 +207,29 @@ class Pipeline:
         if failure is not None:
             raise failure
         return metrics
+
+    def _products(self) -> tuple[Trajectory, SemanticGraph, PointMap]:
+        """Make, show and write what comes of the run; the cloud in a thread beside the rest."""
+        trajectory = self.journal.trajectory()
+        with ThreadPoolExecutor(1, thread_name_prefix="cloud") as pool:
+            fused = pool.submit(self._fuse)
+            with self.clock.stage("write"):
+                self._write_way(trajectory)
+            surveyed = self._survey()
+            graph = self._final_graph(surveyed)
+            with self.clock.stage("write graph"):
+                self._write_graph(graph, surveyed)
+            points = fused.result()
+            view = self.journal.map_view(points, graph)
+            written = pool.submit(self._write_map, view)
+            with self.clock.stage("view"):
+                last = max(0, len(self.journal.labels) - 1)
+                self.viewer.show_map(last, lambda: view)
+                self.viewer.show_graph(last, graph)
+            with self.clock.stage("close"):
+                self.viewer.close()
+            written.result()
+        return trajectory, graph, points
 
     def _settle(self) -> None:
         """Write down where frames turned out to be."""
@@ -236,6 +242,10 @@ class Pipeline:
     def _fuse(self) -> PointMap:
         with self.clock.stage("map"):
             return self.slam.build_map()
+
+    def _write_map(self, view: MapView) -> None:
+        with self.clock.stage("write map"):
+            self.recorder.write_map(view.points, view.label_ids, self.labels)
 
     def _write_way(self, trajectory: Trajectory) -> None:
         """Write where the camera was, and what its keyframes saw."""
