@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -86,8 +86,9 @@ class Evidence:
 
 def _means(parts: Sequence[Sequence[tuple[Key, float]]]) -> tuple[tuple[Key, float], ...]:
     """Return the mean of each key's value, the largest first; where it is missing it counts 0."""
-    total: Counter[Key] = Counter()
+    total: defaultdict[Key, float] = defaultdict(float)
     for part in parts:
         for key, value in part:
-            total[key] += value  # type: ignore[assignment]
-    return tuple((key, value / len(parts)) for key, value in total.most_common())
+            total[key] += value
+    first = sorted(total.items(), key=lambda item: -item[1])
+    return tuple((key, value / len(parts)) for key, value in first)

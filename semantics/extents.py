@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -76,14 +76,14 @@ def with_extents(
 
 def _by_cell(
     cells: NDArray[np.intp], votes: Sequence[Vote], shape: tuple[int, ...]
-) -> dict[tuple[int, int], Counter[str]]:
+) -> dict[tuple[int, int], defaultdict[str, float]]:
     """Count the votes of each cell of the grid, weighed by their scores."""
-    counts: dict[tuple[int, int], Counter[str]] = {}
+    counts: dict[tuple[int, int], defaultdict[str, float]] = {}
     for (row, column), vote in zip(cells.tolist(), votes, strict=True):
         if 0 <= row < shape[0] and 0 <= column < shape[1]:
-            here = counts.setdefault((row, column), Counter())
+            here = counts.setdefault((row, column), defaultdict(float))
             if vote.label != UNKNOWN:
-                here[vote.label] += vote.score  # type: ignore[assignment]
+                here[vote.label] += vote.score
     return counts
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -19,6 +19,8 @@ from semantics.watershed import (
     spread,
 )
 from slam.space import Space
+
+Weights = Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +40,7 @@ class Regions:
 
 
 def segment(
-    space: Space, votes: Mapping[tuple[int, int], Counter[str]], settings: RegionSettings
+    space: Space, votes: Mapping[tuple[int, int], Weights], settings: RegionSettings
 ) -> Regions:
     """Cut the floor into rooms.
 
@@ -51,7 +53,7 @@ def segment(
     ----------
     space : Space
         As carved.
-    votes : mapping of (row, column) to Counter
+    votes : mapping of (row, column) to mapping of str to float
         Labels of the frames taken from a cell, weighed.
     settings : RegionSettings
         What parts rooms.
@@ -75,15 +77,15 @@ def _merge(
     basins: RegionImage,
     peaks: dict[int, float],
     width: NDArray[np.float64],
-    votes: Mapping[tuple[int, int], Counter[str]],
+    votes: Mapping[tuple[int, int], Weights],
     settings: RegionSettings,
     cell_m: float,
 ) -> RegionImage:
     """Join basins, the widest passage first, that no door and no narrowing parts."""
-    labels: dict[int, Counter[str]] = {b: Counter() for b in peaks}
+    labels = {b: defaultdict[str, float](float) for b in peaks}
     for cell, counts in votes.items():
         if basins[cell]:
-            labels[int(basins[cell])].update(counts)
+            _add(labels[int(basins[cell])], counts)
     passages = [
         (float(width[tuple(cells.T)].max()), pair) for pair, cells in borders(basins).items()
     ]
@@ -108,15 +110,20 @@ def _merge(
             continue
         wide, slim = (a, b) if peaks[a] >= peaks[b] else (b, a)
         into[slim] = wide
-        labels[wide].update(labels[slim])
+        _add(labels[wide], labels[slim])
     table = np.zeros(max(peaks, default=0) + 1, dtype=np.int32)
     for b in peaks:
         table[b] = root(b)
     return table[basins]
 
 
-def _first(counts: Counter[str]) -> str | None:
-    return counts.most_common(1)[0][0] if counts else None
+def _add(total: defaultdict[str, float], weights: Weights) -> None:
+    for label, weight in weights.items():
+        total[label] += weight
+
+
+def _first(weights: Weights) -> str | None:
+    return max(weights, key=lambda label: weights[label]) if weights else None
 
 
 def _connected(regions: RegionImage) -> RegionImage:
