@@ -40,6 +40,12 @@ class Terminal:
         self.console.print(Text(f"warning: {text}", style="yellow"), soft_wrap=True)
 
     @contextmanager
+    def working(self, text: str) -> Iterator[None]:
+        """Say what is going on while the block runs, where nothing can be counted."""
+        with self.console.status(escape(text)):
+            yield
+
+    @contextmanager
     def progress(self, title: str) -> Iterator[Advance]:
         """Show a bar while the block runs; call what it gives with done, total and a remark."""
         columns = (

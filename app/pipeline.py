@@ -85,7 +85,7 @@ class Pipeline:
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
         self.journal = Journal(self.slam)
         self._unlabelled: deque[Tracking] = deque()
-        self._drawn_keyframes, self._bent = 0, False
+        self._drawn_keyframes, self._bent, self._done = 0, False, 0
 
     def run(self) -> dict[str, Any]:
         """Map the whole sequence and return its metrics.
@@ -171,7 +171,8 @@ class Pipeline:
                 self.viewer.show_map(
                     tracking.index, lambda: self.journal.map_view(self.slam.sketch_map())
                 )
-        self.progress(tracking.index + 1, len(self.sequence), self._state(tracking))
+        self._done = tracking.index + 1
+        self.progress(self._done, len(self.sequence), self._state(tracking))
 
     def _in_world(self, tracking: Tracking) -> Tracking:
         """Return a frame without its pose where that lies in a sub-map that is nowhere yet."""
@@ -194,6 +195,7 @@ class Pipeline:
 
     def _finish(self) -> dict[str, Any]:
         """Write everything, from a whole run or from what there is of it."""
+        self.progress(self._done, len(self.sequence), "making map, rooms and files")
         failure = self._wait()
         self._label_but(0)
         self._take(self.labeller.finish())

@@ -24,7 +24,8 @@ def places_table(places: tuple[PlaceSummary, ...], start_s: float) -> Table:
         area = "" if place.area_m2 is None else f"{place.area_m2:.1f} m²"
         first, last = place.visits[0].first_s - start_s, place.visits[-1].last_s - start_s
         table.add_row(
-            place.name, place.label, f"{place.score:.0%}", str(len(place.nodes)), area,
+            place.name, "-" if place.label == UNKNOWN else place.label,
+            f"{place.score:.0%}" if place.score else "-", str(len(place.nodes)), area,
             str(len(place.visits)), f"{first:.1f} s", f"{last:.1f} s",
         )  # fmt: skip
     return table

@@ -21,7 +21,7 @@ def summary(metrics: Mapping[str, Any]) -> Table:
         frames += f", {metrics['frames_lost']} lost, {metrics['frames_skipped']} skipped"
     table.add_row("frames", frames)
     table.add_row(
-        "speed", f"{metrics['fps']:.1f} frames/s, {metrics['seconds_total']:.1f} s in all"
+        "speed", f"{metrics['fps']:.1f} frames/s, mapped in {metrics['seconds_total']:.1f} s"
     )
     table.add_row(
         "path", f"{metrics['path_length_m']:.1f} m, {metrics['keyframes']} keyframes, "

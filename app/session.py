@@ -84,7 +84,8 @@ def _check(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> tup
     """Look at the data before a run, and say what cannot be right."""
     if not settings.checks.enabled:
         return ()
-    findings = check_sequence(sequence, settings.checks)
+    with terminal.working("Looking at the data (a first run also compiles: some seconds)"):
+        findings = check_sequence(sequence, settings.checks)
     for finding in findings:
         logger.warning("%s: %s", finding.kind, finding)
         terminal.warn(str(finding))

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage, sparse
 
 from datasets import poses
 from semantics.errors import SemanticsError
 from semantics.graph import Doorway, SemanticGraph
+from slam.occupancy import FREE, OccupancyGrid
 
 FloatArray = NDArray[np.float64]
 
 # Without a known vertical: the first camera's axes, turned so that its up is up.
 _T_LEVEL_WORLD = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+# Half the width of who walks across a room.
+_CLEARANCE_M = 0.2
 # A change of direction below this is straight on.
 _STRAIGHT_DEG = 30.0
 _COORDINATES = re.compile(
@@ -49,7 +55,7 @@ class Leg:
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """A way along nodes of the graph, place by place."""
+    """A way from node to node of the graph, place by place."""
 
     nodes: tuple[int, ...]
     length_m: float
@@ -91,8 +97,21 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
     return tuple(_middle(graph, place) for place in places)
 
 
-def find_route(graph: SemanticGraph, start: str, goal: str) -> Route:
+def find_route(
+    graph: SemanticGraph, start: str, goal: str, grid: OccupancyGrid | None = None
+) -> Route:
     """Return the shortest way, in metres, from what `start` may mean to what `goal` may mean.
+
+    It leads along the way walked, and across rooms over their free floor.
+
+    Parameters
+    ----------
+    graph : SemanticGraph
+        Of a run.
+    start, goal : str
+        See `nodes_of`.
+    grid : OccupancyGrid, optional
+        The run's free floor; without it only ways that were walked are known.
 
     Raises
     ------
@@ -105,6 +124,9 @@ def find_route(graph: SemanticGraph, start: str, goal: str) -> Route:
     ways.add_nodes_from(node.id for node in graph.nodes)
     for edge in graph.edges:
         ways.add_edge(edge.source, edge.target, length=edge.length_m)
+    for a, b, length in () if grid is None else _across(graph, grid):
+        if not ways.has_edge(a, b) or length < ways.edges[a, b]["length"]:
+            ways.add_edge(a, b, length=length)
     starts, goals = nodes_of(graph, start), nodes_of(graph, goal)
     lengths, paths = networkx.multi_source_dijkstra(ways, set(starts), weight="length")
     reached = [node for node in goals if node in lengths]
@@ -115,7 +137,53 @@ def find_route(graph: SemanticGraph, start: str, goal: str) -> Route:
         )  # fmt: skip
     nearest = min(reached, key=lambda node: (lengths[node], node))
     path = tuple(int(node) for node in paths[nearest])
-    return Route(path, float(lengths[nearest]), _legs(graph, path))
+    steps = [float(ways.edges[pair]["length"]) for pair in pairwise(path)]
+    return Route(path, float(lengths[nearest]), _legs(graph, path, steps))
+
+
+def _across(graph: SemanticGraph, grid: OccupancyGrid) -> Iterator[tuple[int, int, float]]:
+    """Yield nodes of one place that free floor in it joins, and how far it is over that floor."""
+    free = ndimage.distance_transform_edt(grid.cells == FREE) * grid.cell_m > _CLEARANCE_M
+    xy = poses.transform(grid.T_map_world, graph.positions)[:, :2]
+    cells = np.floor((xy - grid.origin_xy) / grid.cell_m).astype(np.intp)[:, ::-1]
+    for extent in graph.extents:
+        corners = (extent.polygon_map - grid.origin_xy) / grid.cell_m - 0.5
+        inside: NDArray[np.uint8] = np.zeros(free.shape, dtype=np.uint8)
+        cv2.fillPoly(inside, [np.rint(corners).astype(np.int32)], 1)
+        floor = free & (inside > 0)
+        ids = np.array([n.id for n in graph.nodes if n.place == extent.name], dtype=np.intp)
+        if not floor.any() or len(ids) < 2:
+            continue
+        away, at = ndimage.distance_transform_edt(~floor, return_indices=True)
+        row, column = np.clip(cells[ids], 0, np.array(free.shape) - 1).T
+        near = away[row, column] * grid.cell_m < 2 * _CLEARANCE_M
+        ids, row, column = ids[near], row[near], column[near]
+        lengths = _lengths(floor, at[0][row, column], at[1][row, column]) * grid.cell_m
+        for i, j in np.argwhere(np.triu(np.isfinite(lengths), 1)):
+            a, b = int(ids[i]), int(ids[j])
+            yield a, b, max(float(lengths[i, j]), float(np.linalg.norm(xy[a] - xy[b])))
+
+
+def _lengths(
+    floor: NDArray[np.bool_], rows: NDArray[np.intp], columns: NDArray[np.intp]
+) -> FloatArray:
+    """Return how far (N, N) cells are from each other over the floor, in cells; inf if at all."""
+    number = np.cumsum(floor).reshape(floor.shape) - 1
+    starts, ends, lengths = [], [], []
+    for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        here = (slice(0, -down or None), slice(max(0, -right), -right if right > 0 else None))
+        there = (slice(down, None), slice(max(0, right), right if right < 0 else None))
+        both = floor[here] & floor[there]
+        starts.append(number[here][both])
+        ends.append(number[there][both])
+        lengths.append(np.full(len(starts[-1]), np.hypot(down, right)))
+    joined = sparse.coo_matrix(
+        (np.concatenate(lengths), (np.concatenate(starts), np.concatenate(ends))),
+        shape=(int(floor.sum()),) * 2,
+    ).tocsr()
+    nodes = number[rows, columns]
+    found = sparse.csgraph.dijkstra(joined, directed=False, indices=nodes)
+    return np.asarray(found[:, nodes], dtype=np.float64)
 
 
 def plain(name: str) -> str:
@@ -146,13 +214,12 @@ def _middle(graph: SemanticGraph, place: str) -> int:
     return int(ids[distances.sum(axis=1).argmin()])
 
 
-def _legs(graph: SemanticGraph, path: tuple[int, ...]) -> tuple[Leg, ...]:
+def _legs(graph: SemanticGraph, path: tuple[int, ...], steps: list[float]) -> tuple[Leg, ...]:
     """Cut a way where the place changes; the border lies halfway between the two nodes."""
     positions = upright(graph)
     labels = {node.place: node.label for node in graph.nodes}
     legs, length = [], 0.0
-    for i, (a, b) in enumerate(pairwise(path)):
-        step = float(np.linalg.norm(positions[b] - positions[a]))
+    for i, ((a, b), step) in enumerate(zip(pairwise(path), steps, strict=True)):
         here, there = graph.nodes[a].place, graph.nodes[b].place
         if here == there:
             length += step

@@ -18,7 +18,8 @@ def route(
 ) -> None:
     """Say the way from one place to another.
 
-    The shortest one: rooms, doors, metres.
+    The shortest one that is known: along the way walked, and across rooms over their free floor.
+    Rooms, doors, metres.
 
     FROM and TO are a place (office1: its middle), a label (kitchen: the nearest of them), or
     coordinates in metres (x,y on the floor of map.yaml, or x,y,z in the trajectory's world).
@@ -31,11 +32,13 @@ def route(
     """  # noqa: D301
     import json
 
+    from app.occupancy_io import read_occupancy
     from app.questions import route_json, route_text
     from app.run_folder import RunFolder
     from semantics.graph_io import read_graph_json
     from semantics.routing import find_route
 
     folder = RunFolder(run)
-    found = find_route(read_graph_json(folder.existing(folder.graph_json)), start, goal)
+    grid = read_occupancy(folder.occupancy) if folder.occupancy.exists() else None
+    found = find_route(read_graph_json(folder.existing(folder.graph_json)), start, goal, grid)
     typer.echo(json.dumps(route_json(found), indent=1) if as_json else route_text(found))

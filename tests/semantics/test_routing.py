@@ -9,6 +9,7 @@ from semantics.graph import Doorway, EdgeKind, Extent, GraphEdge, GraphNode, Sem
 from semantics.labels import LabelSpace
 from semantics.routing import find_route, nodes_of, turning
 from semantics.visits import Visit, summarise
+from slam.occupancy import FREE, OCCUPIED, OccupancyGrid
 
 LABELS = LabelSpace.of(("corridor", "kitchen", "office"))
 
@@ -137,3 +138,34 @@ def test_places_with_their_visits():
     assert corridor.area_m2 is None
     assert corridor.score == pytest.approx((0.9 * 5 + 0.7 * 3) / 8)
     assert (office2.visits, kitchen.nodes) == ((Visit(6.0, 6.0),), (10,))
+
+
+def _hall(wall_to=None):
+    """A hall walked in a U, and its floor; a wall may stand between the arms up to some y."""
+    spots = [(0.5, 0.5), (0.5, 4.5), (1.5, 4.5), (1.5, 0.5)]
+    nodes = tuple(
+        GraphNode(i, i, 1.0 * i, np.array([x, y, 0.0]), "office", LABELS.id_of("office"),
+                  "office1", 0.9, np.empty(0))
+        for i, (x, y) in enumerate(spots)
+    )  # fmt: skip
+    edges = tuple(
+        GraphEdge(i, i + 1, length, EdgeKind.PATH) for i, length in enumerate((4.0, 1.0, 4.0))
+    )
+    outline = np.array([[0, 0], [2, 0], [2, 5], [0, 5]], dtype=float)
+    extents = (Extent("office1", "office", LABELS.id_of("office"), 0.9, outline, 10.0,
+                      np.array([1.0, 2.5])),)  # fmt: skip
+    cells = np.full((100, 40), FREE, dtype=np.int8)
+    if wall_to is not None:
+        cells[: round(wall_to / 0.05), 20] = OCCUPIED
+    grid = OccupancyGrid(cells, 0.05, np.zeros(2), np.eye(4))
+    return SemanticGraph(LABELS, nodes, edges, extents, (), np.eye(4)), grid
+
+
+@pytest.mark.parametrize(("wall_to", "length"), [(None, 1.0), (2.0, 4.0), (5.0, 9.0)])
+def test_rooms_are_crossed_where_the_floor_is_free(wall_to, length):
+    graph, grid = _hall(wall_to)
+    assert find_route(graph, "0.5,0.5", "1.5,0.5").length_m == pytest.approx(9.0)
+    route = find_route(graph, "0.5,0.5", "1.5,0.5", grid)
+    # Over cells, ways go along eight directions and keep clear of the wall.
+    assert route.length_m == pytest.approx(length, rel=0.12)
+    assert route.length_m == pytest.approx(sum(leg.length_m for leg in route.legs))
