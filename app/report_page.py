@@ -27,13 +27,10 @@ from slam.evaluation import compare
 
 # What the stages of a run are called. Some run in a thread beside the others.
 _STAGES = {
-    "read": "reading images (beside)", "features": "features (beside)", "track": "tracking",
-    "view": "showing and recording", "label": "labelling", "graph": "graph",
-    "map": "final map (beside)",
-    "survey": "floor and free space", "extents": "rooms and doorways",
-    "write": "writing trajectory and keyframes", "write graph": "writing graph and grid",
-    "write map": "writing the cloud",
-    "close": "ending the recording",
+    "read": "reading (beside)", "features": "features (beside)", "track": "tracking",
+    "view": "showing", "label": "labelling", "graph": "graph", "map": "cloud (beside)",
+    "survey": "free space", "extents": "rooms", "write": "writing poses",
+    "write graph": "writing graph", "write map": "writing cloud", "close": "ending recording",
 }  # fmt: skip
 
 

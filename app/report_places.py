@@ -33,7 +33,7 @@ def place_content(folder: RunFolder, graph: SemanticGraph) -> dict[str, Any]:
         doors = {p for door in graph.doorways if name in door.places for p in door.places}
         rows.append({
             "name": name,
-            "label": nodes[0].label.replace("_", " "),
+            "label": nodes[0].label.replace("_", " ") if nodes[0].label_id else _NONE,
             "colour": _hex(graph, nodes[0].label_id),
             "score": f"{extent.score:.0%}" if extent and extent.score else _NONE,
             "area": f"{extent.area_m2:.1f} m²" if extent else _NONE,

@@ -41,6 +41,7 @@ def summary_content(
         f"{metrics['graph_nodes']} graph nodes; mapped in {metrics['seconds_total']:.0f} s.",
         "figures": figures,
         "warnings": _warnings(graph, metrics),
+        "labelled": len(graph.labels) > 1,
         "floor_plan": _picture(folder.floor_plan_png, "image/png"),
         "plan_words": ", ".join(f"{e.name} {e.area_m2:.1f} m²" for e in graph.extents)
         or "no rooms found",
