@@ -13,6 +13,8 @@ from semantics.estimator import Estimator
 _NEGLIGIBLE = 1e-3
 # With fewer steps the ranges shrink faster than the prototypes can spread.
 _MIN_STEPS = 500
+# Samples looked at together where all are.
+_BLOCK = 8192
 
 
 class NeuralGas(Estimator):
@@ -37,6 +39,10 @@ class NeuralGas(Estimator):
     initial_range, final_range : float
         lambda at the first and the last batch, in ranks; an initial range of None is
         ``n_vectors / 2``.
+    settling : int
+        Passes at the end in which each prototype goes to the mean of its samples: the limit of
+        range 0, where Neural Gas is k-means (section II of the paper), without the last steps'
+        jitter.
     random_state : int, Generator or None
         Seeds the choice of the first prototypes and the order of the samples.
 
@@ -59,6 +65,7 @@ class NeuralGas(Estimator):
         final_step: float = 0.005,
         initial_range: float | None = None,
         final_range: float = 0.01,
+        settling: int = 2,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_vectors = n_vectors
@@ -68,6 +75,7 @@ class NeuralGas(Estimator):
         self.final_step = final_step
         self.initial_range = initial_range
         self.final_range = final_range
+        self.settling = settling
         self.random_state = random_state
 
     @classmethod
@@ -98,6 +106,8 @@ class NeuralGas(Estimator):
             step = self.initial_step * (self.final_step / self.initial_step) ** progress
             reach = first_range * (self.final_range / first_range) ** progress
             _adapt(prototypes, samples[batch] - mean, float(step), float(reach))
+        for _ in range(self.settling):
+            prototypes = _settled(prototypes, samples, mean)
         self.prototypes_ = prototypes + mean
         self.quantization_error_ = self._error(samples)
         return self
@@ -168,6 +178,8 @@ class NeuralGas(Estimator):
         for name, value in at_least_one.items():
             if value < 1:
                 raise ValueError(f"{name} must be 1 or more, got {value}")
+        if self.settling < 0:
+            raise ValueError(f"settling must be 0 or more, got {self.settling}")
         for name in ("initial_step", "final_step"):
             if not 0 < getattr(self, name) <= 1:
                 raise ValueError(f"{name} must be in (0, 1], got {getattr(self, name)}")
@@ -179,8 +191,8 @@ class NeuralGas(Estimator):
     def _error(self, samples: NDArray[np.float32]) -> float:
         """Return the mean squared distance to the nearest prototype, a block at a time."""
         total = 0.0
-        for i in range(0, len(samples), 8192):
-            block = samples[i : i + 8192]
+        for i in range(0, len(samples), _BLOCK):
+            block = samples[i : i + _BLOCK]
             residual = block - self.prototypes_[_scores(block, self.prototypes_).argmin(axis=1)]
             total += float(np.square(residual, dtype=np.float64).sum())
         return total / len(samples)
@@ -205,6 +217,23 @@ def _adapt(
     total = h.sum(axis=0)[:, None]
     mean = (h.T @ batch) / np.maximum(total, np.float32(1e-12))
     prototypes += -np.expm1(-step * total) * (mean - prototypes)
+
+
+def _settled(
+    prototypes: NDArray[np.float32], samples: NDArray[np.float32], mean: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Return the means of the samples (N, D), less `mean`, that are nearest to each prototype.
+
+    Those that are nearest to none stay.
+    """
+    sums, counts = np.zeros(prototypes.shape), np.zeros((len(prototypes), 1))
+    for i in range(0, len(samples), _BLOCK):
+        block = samples[i : i + _BLOCK] - mean
+        nearest = _scores(block, prototypes).argmin(axis=1)
+        belongs = (nearest == np.arange(len(prototypes))[:, None]).astype(np.float32)
+        sums += belongs @ block
+        counts += belongs.sum(axis=1, keepdims=True)
+    return np.where(counts > 0, sums / np.maximum(counts, 1), prototypes).astype(np.float32)
 
 
 def _nearest(scores: NDArray[np.float32], count: int) -> NDArray[np.int64]:
