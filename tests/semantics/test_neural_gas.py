@@ -23,6 +23,13 @@ def test_is_no_worse_than_k_means(blobs):
     assert gas.quantization_error_ <= 1.01 * min(mini, full)
 
 
+def test_settling_takes_the_jitter_off(blobs):
+    errors = [
+        NeuralGas(20, settling=n, random_state=0).fit(blobs).quantization_error_ for n in (0, 1, 4)
+    ]
+    assert errors[0] > errors[1] >= errors[2]
+
+
 def test_quantisation_error_is_the_mean_squared_distance(blobs):
     gas = NeuralGas(10, 1, random_state=0).fit(blobs)
     assert gas.quantization_error_ == pytest.approx(
