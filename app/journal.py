@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,8 +15,9 @@ from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel
 from semantics.parts import Vote
 from slam.map import PointMap
+from slam.pose_graph import Link
 from slam.slam import Slam
-from slam.tracking import Anchor, Tracking, TrackingState
+from slam.tracking import Tracking, TrackingState
 
 FloatArray = NDArray[np.float64]
 
@@ -73,7 +74,8 @@ class Journal:
 
     def trajectory(self) -> Trajectory:
         """Return the poses of all frames that have a place in the world."""
-        return _trajectory_of([(t.stamp_s, self.slam.pose_of(anchor)) for t, anchor in self._way()])
+        way = _way_of(self.labels, self.slam.placed_poses)
+        return _trajectory_of([(tracking.stamp_s, T) for tracking, T in way])
 
     def votes(self, keyframes: Sequence[int]) -> list[Vote]:
         """Return where frames that hang on one of `keyframes` were, and what they look like."""
@@ -84,45 +86,64 @@ class Journal:
             if (anchor := label.tracking.anchor) is not None and anchor.keyframe in known
         ]
 
-    def map_view(self, points: PointMap, graph: SemanticGraph | None = None) -> MapView:
-        """Return a map as viewers are shown it, with keyframes, links and the way."""
-        T = self.slam.placed_poses
-        links = [k for k in self.slam.links if k.first in T and k.second in T]
-        ends = np.array([(T[k.first][:3, 3], T[k.second][:3, 3]) for k in links])
-        loops = np.array([link.is_loop for link in links], dtype=bool)
-        ends = ends.reshape(-1, 2, 3)
-        way = self._way()
-        return MapView(
-            points, self._label_ids(points, graph), tuple(T),
-            np.array(list(T.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
-            self.trajectory().positions, tuple(t.index for t, _ in way),
-            tuple(t.state for t, _ in way),
-        )  # fmt: skip
+    def map_view(self, points: PointMap, graph: SemanticGraph) -> MapView:
+        """Return a finished map as viewers are shown it, with keyframes, links and the way.
 
-    def _way(self) -> list[tuple[Tracking, Anchor]]:
-        """Return the frames that have a place in the world, and what holds their pose."""
-        return [
-            (label.tracking, anchor)
-            for label in self.labels
-            if (anchor := label.tracking.anchor) is not None and self.slam.is_placed(anchor)
-        ]
+        Each point has the label of the place it lies in, else of the keyframe that saw it.
+        """
+        view = _view_of(points, self.labels, self.slam.placed_poses, self.slam.links)
+        if not graph.extents:
+            return view
+        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
+        place = places_at(graph, points.points_world)
+        return replace(view, label_ids=np.where(place >= 0, of_extent[place], view.label_ids))
 
-    def _label_ids(self, points: PointMap, graph: SemanticGraph | None) -> NDArray[np.uint16]:
-        """Give each map point the label of the place it lies in, else of the keyframe that saw it.
+    def sketch(self) -> Callable[[], MapView]:
+        """Return what draws the map as it is now, coarsely; see `Slam.sketch_map`.
 
         Without a place's extent, what is seen through a door bears the label of this side of it.
         """
-        of_keyframe = np.zeros(max(self.slam.keyframe_poses, default=0) + 1, dtype=np.uint16)
-        for label in self.labels:
-            tracking = label.tracking
-            if tracking.is_keyframe and tracking.anchor is not None:
-                of_keyframe[tracking.anchor.keyframe] = label.label_id
-        seen_from = of_keyframe[points.keyframes]
-        if graph is None or not graph.extents:
-            return seen_from
-        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
-        place = places_at(graph, points.points_world)
-        return np.where(place >= 0, of_extent[place], seen_from)
+        draw, labels = self.slam.sketch_map(), list(self.labels)
+        T_world_keyframe, links = self.slam.placed_poses, self.slam.links
+        return lambda: _view_of(draw(), labels, T_world_keyframe, links)
+
+
+def _view_of(
+    points: PointMap,
+    labels: Sequence[FrameLabel],
+    T_world_keyframe: dict[int, FloatArray],
+    links: Sequence[Link],
+) -> MapView:
+    """Return a map as viewers are shown it, each point labelled like the keyframe that saw it."""
+    between = [k for k in links if k.first in T_world_keyframe and k.second in T_world_keyframe]
+    ends = np.array([
+        (T_world_keyframe[k.first][:3, 3], T_world_keyframe[k.second][:3, 3]) for k in between
+    ]).reshape(-1, 2, 3)  # fmt: skip
+    loops = np.array([link.is_loop for link in between], dtype=bool)
+    label_ids = np.zeros(max(T_world_keyframe, default=0) + 1, dtype=np.uint16)
+    way = _way_of(labels, T_world_keyframe)
+    for label in labels:
+        tracking = label.tracking
+        anchor = tracking.anchor
+        if tracking.is_keyframe and anchor is not None and anchor.keyframe in T_world_keyframe:
+            label_ids[anchor.keyframe] = label.label_id
+    return MapView(
+        points, label_ids[points.keyframes], tuple(T_world_keyframe),
+        np.array(list(T_world_keyframe.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
+        np.array([T[:3, 3] for _, T in way]).reshape(-1, 3),
+        tuple(tracking.index for tracking, _ in way), tuple(tracking.state for tracking, _ in way),
+    )  # fmt: skip
+
+
+def _way_of(
+    labels: Sequence[FrameLabel], T_world_keyframe: dict[int, FloatArray]
+) -> list[tuple[Tracking, FloatArray]]:
+    """Return the frames that have a place in the world, and T_world_camera (4, 4) there."""
+    return [
+        (label.tracking, T_world_keyframe[anchor.keyframe] @ anchor.T_keyframe_camera)
+        for label in labels
+        if (anchor := label.tracking.anchor) is not None and anchor.keyframe in T_world_keyframe
+    ]
 
 
 def _trajectory_of(way: list[tuple[float, FloatArray]]) -> Trajectory:

@@ -168,9 +168,7 @@ class Pipeline:
                 self.viewer.log(tracking.index, event)
             if self._is_map_due(tracking):
                 self._drawn_keyframes, self._bent = len(self.slam.keyframes), False
-                self.viewer.show_map(
-                    tracking.index, lambda: self.journal.map_view(self.slam.sketch_map())
-                )
+                self.viewer.show_map(tracking.index, self.journal.sketch())
         self._done = tracking.index + 1
         self.progress(self._done, len(self.sequence), self._state(tracking))
 

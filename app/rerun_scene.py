@@ -33,6 +33,9 @@ LINK_COLOUR: Colour = (150, 150, 165)
 LOOP_COLOUR: Colour = (255, 80, 220)
 USABLE_COLOUR: Colour = (60, 255, 120)
 PLAIN_COLOUR: Colour = (170, 170, 170)
+# Features without and with a depth reading.
+FEATURES_PLAIN = "world/camera/image/features/plain"
+FEATURES_USABLE = "world/camera/image/features/with_depth"
 _FRUSTUM_M = 0.4
 
 
@@ -54,6 +57,11 @@ def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: i
     log("world", rr.ViewCoordinates.RIGHT_HAND_Y_DOWN, _annotation(session.labels))
     log("world/camera/image", _pinhole(session.intrinsics))
     log("world/camera/depth", _pinhole(thinned(session.intrinsics, depth_step)))
+    # What all images and all features have alike is sent once, not with each.
+    log("world/camera/image/colour", rr.EncodedImage.from_fields(media_type="image/jpeg"))
+    log("world/camera/depth/image", _depth_style())
+    for entity, colour in ((FEATURES_PLAIN, PLAIN_COLOUR), (FEATURES_USABLE, USABLE_COLOUR)):
+        log(entity, rr.Points2D.from_fields(colors=colour, radii=rr.Radius.ui_points(2.0)))
     if session.truth is not None:
         truth = rr.LineStrips3D(
             [session.truth], colors=TRUTH_COLOUR, radii=rr.Radius.ui_points(0.7)
@@ -94,17 +102,11 @@ def _pinhole(camera: Intrinsics) -> rr.Pinhole:
     )  # fmt: skip
 
 
-def depth_image(png: NDArray[np.uint8]) -> rr.EncodedDepthImage:
-    """Return the recorded depth image."""
-    return rr.EncodedDepthImage(
-        png, media_type="image/png", meter=DEPTH_UNITS_PER_M, colormap=rr.components.Colormap.Turbo,
+def _depth_style() -> rr.EncodedDepthImage:
+    return rr.EncodedDepthImage.from_fields(
+        media_type="image/png", meter=DEPTH_UNITS_PER_M, colormap=rr.components.Colormap.Turbo,
         depth_range=(0.0, 5.0 * DEPTH_UNITS_PER_M),
     )  # fmt: skip
-
-
-def keypoints(pixels: FloatArray, colour: Colour) -> rr.Points2D:
-    """Draw features (N, 2)."""
-    return rr.Points2D(pixels, colors=colour, radii=rr.Radius.ui_points(2.0))
 
 
 def trajectory(

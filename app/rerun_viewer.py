@@ -24,7 +24,7 @@ from app.rerun_sinks import open_sinks
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
-from slam.tracking import Tracking, TrackingState
+from slam.tracking import Tracking
 
 __all__ = ["RerunViewer", "ViewerSettings"]
 
@@ -180,17 +180,15 @@ class RerunViewer:
         matters = tracking.is_keyframe or not tracking.state.has_pose
         if matters or tracking.index % settings.depth_stride == 0:
             png = rerun_images.encode_depth(frame, settings.depth_step)
-            log("world/camera/depth/image", rerun_scene.depth_image(png))
+            log("world/camera/depth/image", rr.EncodedDepthImage.from_fields(blob=png))
         if not matters and tracking.index % settings.colour_stride:
             return
         jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
-        log("world/camera/image/colour", rr.EncodedImage(contents=jpeg, media_type="image/jpeg"))
+        log("world/camera/image/colour", rr.EncodedImage.from_fields(blob=jpeg))
         pixels = tracking.pixels[: settings.max_keypoints]
         usable = rerun_images.has_depth(frame, pixels)
-        plain, lost = rerun_scene.PLAIN_COLOUR, not tracking.state.has_pose
-        good = rerun_scene.STATE_COLOURS[TrackingState.LOST] if lost else rerun_scene.USABLE_COLOUR
-        log("world/camera/image/features/plain", rerun_scene.keypoints(pixels[~usable], plain))
-        log("world/camera/image/features/with_depth", rerun_scene.keypoints(pixels[usable], good))
+        log(rerun_scene.FEATURES_PLAIN, rr.Points2D.from_fields(positions=pixels[~usable]))
+        log(rerun_scene.FEATURES_USABLE, rr.Points2D.from_fields(positions=pixels[usable]))
 
     def _show_pose(self, pose: Pose) -> None:
         T = pose.T_world_camera

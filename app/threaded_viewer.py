@@ -18,9 +18,8 @@ _WAITING = 32
 class ThreadedViewer:
     """Hands all that it is told to another viewer, in order, in a thread of its own.
 
-    Only drawing the map, which asks the run for it, is done in the caller's thread. Where the
-    other viewer falls behind, the run waits. What goes wrong in the thread is raised by the next
-    call, and by `close` at the latest.
+    Where the other viewer falls behind, the run waits. What goes wrong in the thread is raised by
+    the next call, and by `close` at the latest.
 
     Parameters
     ----------
@@ -46,9 +45,8 @@ class ThreadedViewer:
         self._later(lambda: self._viewer.show_label(frame, label_id, label, score))
 
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
-        """Draw the map as it is now, and hand it on."""
-        view = draw()
-        self._later(lambda: self._viewer.show_map(frame, lambda: view))
+        """Hand on what draws the map."""
+        self._later(lambda: self._viewer.show_map(frame, draw))
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
         """Hand on the topological graph."""

@@ -20,7 +20,6 @@ FloatArray = NDArray[np.float64]
 FINEST_OFFSET, LONGEST_NORMAL, LARGEST_WEIGHT = 256, 127, 255
 # A reading without a normal looks to the camera, but counts little beside one that has it.
 GUESSED_NORMAL = 0.1
-WEIGHT, OFFSET, COLOUR, NORMAL = slice(0, 1), slice(1, 4), slice(4, 7), slice(7, 10)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +82,7 @@ class Fusion:
         self.voxel_m, self.noise = voxel_m, noise
         self.fused: dict[int, Fused] = {}
         self._table = VoxelTable()
+        # Weight, offset, colour and normal of each row.
         self._sums: NDArray[np.int32] = np.empty((0, 10), np.int32)
         self._views: NDArray[np.uint16] = np.empty(0, np.uint16)
 
@@ -122,17 +122,10 @@ class Fusion:
         keys = self._table.keys[rows]
         order = np.argsort(keys)
         rows, keys = rows[order], keys[order]
-        sums = self._sums[rows]
-        weight = sums[:, WEIGHT].astype(np.float64)
-        points = (cells_of(keys) + (sums[:, OFFSET] / weight + 0.5) / FINEST_OFFSET) * self.voxel_m
-        normals = sums[:, NORMAL].astype(np.float64)
-        length = np.linalg.norm(normals, axis=1, keepdims=True)
-        # Seen from both sides alike: any normal will do.
-        normals = np.where(length > 0, normals / np.maximum(length, 1e-12), (0.0, 0.0, 1.0))
+        points, colours, normals = _tallied(rows, cells_of(keys), self._sums, self.voxel_m)
         return Voxels(
-            keys, points.astype(np.float32),
-            np.rint(sums[:, COLOUR] / weight).astype(np.uint8), normals.astype(np.float32),
-            self._nearest(count)[rows], self._views[rows].astype(np.int32),
+            keys, points, colours, normals, self._nearest(count)[rows],
+            self._views[rows].astype(np.int32),
         )  # fmt: skip
 
     def _nearest(self, count: int) -> NDArray[np.int32]:
@@ -219,6 +212,40 @@ def _summed(
         for k in range(9):
             sums[row, 1 + k] = np.rint(total[k] / points) * weight
     return first, sums, depth
+
+
+@compiled
+def _tallied(
+    rows: NDArray[np.intp], cells: NDArray[np.int32], sums: NDArray[np.int32], voxel_m: float
+) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float32]]:
+    """Return the mean points, colours and normals, each (N, 3), of some rows of sums.
+
+    Parameters
+    ----------
+    rows : (N,) int
+        Of voxels in which something is seen.
+    cells : (N, 3) int32
+        Where these lie, in voxels.
+    sums : (M, 10) int32
+        Of all rows: weight, offset, colour, normal.
+    voxel_m : float
+        A voxel's side.
+    """
+    count = len(rows)
+    points, normals = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
+    colours = np.empty((count, 3), np.uint8)
+    for n in range(count):
+        total = sums[rows[n]]
+        weight = float(total[0])
+        x, y, z = float(total[7]), float(total[8]), float(total[9])
+        length = np.sqrt(x * x + y * y + z * z)
+        if length == 0:  # Seen from both sides alike: any normal will do.
+            z = length = 1.0
+        normals[n, 0], normals[n, 1], normals[n, 2] = x / length, y / length, z / length
+        for k in range(3):
+            points[n, k] = (cells[n, k] + (total[1 + k] / weight + 0.5) / FINEST_OFFSET) * voxel_m
+            colours[n, k] = np.rint(total[4 + k] / weight)
+    return points, colours, normals
 
 
 def _guessed(normals: NDArray[np.float32], points: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -187,10 +189,13 @@ class Slam:
         placed = [k for k in self.keyframes.values() if k.id in self._backend.placed]
         return build_map(placed, self.keyframe_poses, self.settings.map, self.settings.noise)
 
-    def sketch_map(self) -> PointMap:
-        """Return a coarse map to look at while the run goes on."""
+    def sketch_map(self) -> Callable[[], PointMap]:
+        """Return what draws a coarse map of the keyframes as they are now.
+
+        It may be called later and in another thread, but each before the next.
+        """
         placed = {k: v for k, v in self.keyframes.items() if k in self._backend.placed}
-        return self._live_map.update(placed, self.keyframe_poses)
+        return partial(self._live_map.update, placed, self.placed_poses)
 
     def _begin(self, view: View) -> Tracking:
         """Start the map with the first frame that shows anything in depth."""

@@ -185,7 +185,8 @@ def test_images_are_there_with_their_stamps(recorded: Recorded) -> None:
     assert set(corners) == set(jpegs)
     depths = recorded.values("/world/camera/depth/image", "EncodedDepthImage:blob")
     assert set(depths) == matter | set(range(0, N_FRAMES, 4))
-    stamps = {row["frame"]: row["stamp"] for row in recorded.rows["/world/camera/image/colour"]}
+    images = recorded.rows["/world/camera/image/colour"]
+    stamps = {row["frame"]: row["stamp"] for row in images if "frame" in row}
     assert stamps[6].total_seconds() == pytest.approx(100.6)
 
 

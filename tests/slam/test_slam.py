@@ -127,6 +127,19 @@ def test_what_is_anchored_moves_with_its_keyframe(tracked):
     )
 
 
+def test_a_sketch_shows_the_map_as_it_was_when_it_was_asked_for(rendered_sequence):
+    slam, draw = Slam(SlamSettings()), None
+    for frame in frames_of(select(rendered_sequence, frames=60)):
+        slam.process(frame)
+        if draw is None and len(slam.keyframes) >= 2:
+            asked, draw = set(slam.keyframes), slam.sketch_map()
+    slam.finish()
+    assert draw is not None
+    shown = draw().keyframes
+    assert set(shown.tolist()) <= asked < set(slam.keyframes)
+    assert len(slam.sketch_map()()) > len(shown)
+
+
 def test_map_lies_on_the_rooms_surfaces(tracked):
     """Points seen in one frame's depth and mapped from many keyframes agree."""
     from scipy.spatial import cKDTree
