@@ -42,6 +42,8 @@ Progress = Callable[[int, int, str], None]
 
 # Frames that labelling stays behind tracking.
 LABEL_LAG = 8
+# Of a large map, it has to grow by at least one part in so many to be drawn again.
+LEAST_GROWTH = 32
 
 
 class Pipeline:
@@ -181,7 +183,7 @@ class Pipeline:
 
     def _is_map_due(self, tracking: Tracking) -> bool:
         """Whether the map has grown enough since it was shown; half as much if loops bent it."""
-        every = self.settings.recording.map_every
+        every = max(self.settings.recording.map_every, self._drawn_keyframes // LEAST_GROWTH)
         self._bent |= bool(tracking.closures)
         due = self._drawn_keyframes + (every // 2 if self._bent else every)
         first = tracking.is_keyframe and self._drawn_keyframes == 0

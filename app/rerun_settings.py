@@ -11,9 +11,10 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     colour_stride: int = Field(
-        2, ge=1, description="every n-th colour image is recorded; keyframes' and lost ones always"
-    )
-    depth_stride: int = Field(4, ge=1, description="every n-th depth image, likewise")
+        2, ge=1, description="a colour image is recorded n frames after the one before; keyframes' "
+        "and lost ones always",
+    )  # fmt: skip
+    depth_stride: int = Field(4, ge=1, description="a depth image, likewise")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
     depth_step: int = Field(3, ge=1, le=16, description="every n-th row and column of the depth")
     max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")

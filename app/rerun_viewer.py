@@ -73,7 +73,9 @@ class RerunViewer:
         self._pictures = KeyframePictures(
             self.settings.picture_spacing_m, self.settings.picture_turn_deg
         )
-        self._told: dict[int, Tracking] = {}
+        # Frames with an image whose label is not known yet.
+        self._untold: dict[int, Tracking] = {}
+        self._last_colour = self._last_depth = -np.inf
         self._map: tuple[int, MapView] | None = None
 
     def start(self, session: SessionView) -> None:
@@ -93,7 +95,6 @@ class RerunViewer:
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
         """Show a frame with its features and, where it has one in the world, its pose."""
         self._stamps[tracking.index] = tracking.stamp_s
-        self._told[tracking.index] = tracking.without_view()
         self._at(tracking.index)
         self._show_images(frame, tracking)
         self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))
@@ -109,7 +110,7 @@ class RerunViewer:
         if self._has_labels:
             self._recording.log("plots/score", rr.Scalars(score))
             self._say("timeline/label", label)
-        tracking = self._told.pop(frame, None)
+        tracking = self._untold.pop(frame, None)
         if tracking is not None:
             words = f"{label.replace('_', ' ')} · {score:.2f}"
             self._show_status(tracking, words if self._has_labels else "places not labelled")
@@ -175,14 +176,17 @@ class RerunViewer:
             self._recording.log(entity, rr.StateChange(state=state))
 
     def _show_images(self, frame: Frame, tracking: Tracking) -> None:
-        """Show every n-th image with its features, and those that more hangs on."""
+        """Show images some frames after the last, and those that more hangs on."""
         settings, log = self.settings, self._recording.log
         matters = tracking.is_keyframe or not tracking.state.has_pose
-        if matters or tracking.index % settings.depth_stride == 0:
+        if matters or tracking.index - self._last_depth >= settings.depth_stride:
+            self._last_depth = tracking.index
             png = rerun_images.encode_depth(frame, settings.depth_step)
             log("world/camera/depth/image", rr.EncodedDepthImage.from_fields(blob=png))
-        if not matters and tracking.index % settings.colour_stride:
+        if not matters and tracking.index - self._last_colour < settings.colour_stride:
             return
+        self._last_colour = tracking.index
+        self._untold[tracking.index] = tracking.without_view()
         jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
         log("world/camera/image/colour", rr.EncodedImage.from_fields(blob=jpeg))
         pixels = tracking.pixels[: settings.max_keypoints]

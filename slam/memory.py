@@ -107,7 +107,7 @@ def write_memory(path: Path, memory: KeyframeMemory) -> None:
         "descriptors": np.concatenate([_as_bytes(f.descriptors) for f in found]),
     }
     with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, allow_pickle=False, **values)
+        np.savez(file, allow_pickle=False, **values)
 
 
 def read_memory(path: Path) -> KeyframeMemory:
