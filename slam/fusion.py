@@ -36,12 +36,15 @@ class Fused:
         Of the voxels.
     depth_mm : (N,) uint16
         How far the keyframe's camera was from each.
+    typical_m : float
+        The median of these, metres; 0 where nothing was seen.
     """
 
     image: RangeImage
     T_world_keyframe: FloatArray
     rows: NDArray[np.int32]
     depth_mm: NDArray[np.uint16]
+    typical_m: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +109,8 @@ class Fusion:
         self._views = grown(self._views, len(self._table))
         self._sums[rows] += sums
         self._views[rows] += 1
-        self.fused[keyframe] = Fused(image, T_world_keyframe.copy(), rows, depth_mm)
+        typical_m = float(np.median(depth_mm)) / 1000 if len(depth_mm) else 0.0
+        self.fused[keyframe] = Fused(image, T_world_keyframe.copy(), rows, depth_mm, typical_m)
 
     def remove(self, keyframe: int) -> None:
         """Take a keyframe out again."""

@@ -13,7 +13,7 @@ from pydantic import Field
 from datasets import poses
 from datasets.settings import Settings
 from slam.carving import look_again
-from slam.fusion import Fusion, Voxels
+from slam.fusion import Fused, Fusion, Voxels
 from slam.keyframe import Keyframe
 from slam.noise import SensorNoise
 from slam.range_image import RangeImage
@@ -164,10 +164,7 @@ class LiveMap:
     ) -> PointMap:
         """Follow the keyframes to their present poses and return the map."""
         for keyframe, fused in list(self._fusion.fused.items()):
-            known = keyframe in keyframes
-            if not known or self._has_moved(
-                fused.image, fused.T_world_keyframe, T_world_keyframe[keyframe]
-            ):
+            if keyframe not in keyframes or self._has_moved(fused, T_world_keyframe[keyframe]):
                 self._fusion.remove(keyframe)
         if self._fusion.waste > 0.5:
             self._fusion = Fusion(self._voxel_m, self._noise)
@@ -176,12 +173,10 @@ class LiveMap:
             self._fusion.add(keyframe, image, T_world_keyframe[keyframe])
         return _as_map(self._fusion.voxels())
 
-    def _has_moved(self, image: RangeImage, before: FloatArray, now: FloatArray) -> bool:
-        """Whether what an image shows has moved by more than the slack."""
-        T = poses.inverse(before) @ now
-        readings = image.depth_mm[image.depth_mm > 0]
-        depth_m = float(np.median(readings)) / 1000 if len(readings) else 0.0
-        moved = np.linalg.norm(T[:3, 3]) + poses.rotation_angle(T) * depth_m
+    def _has_moved(self, fused: Fused, now: FloatArray) -> bool:
+        """Whether what a keyframe shows has moved by more than the slack."""
+        T = poses.inverse(fused.T_world_keyframe) @ now
+        moved = np.linalg.norm(T[:3, 3]) + poses.rotation_angle(T) * fused.typical_m
         return bool(moved > self.settings.sketch_slack * self._voxel_m)
 
 
