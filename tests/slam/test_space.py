@@ -6,8 +6,9 @@ import pytest
 from datasets import poses
 from slam.ground import Ground
 from slam.occupancy import FREE, OCCUPIED, UNKNOWN, occupancy
+from slam.range_image import RangeImage
 from slam.space import SpaceSettings, carve
-from tests.slam.scene import NOISE, around, box_room, keyframes
+from tests.slam.scene import NOISE, around, box_room, camera, keyframes
 
 SETTINGS = SpaceSettings()
 LEVEL = Ground(np.eye(4), True, True, True)
@@ -49,7 +50,30 @@ def test_rays_carve_and_nothing_else(rng):
     # Below the camera nothing was hit, but it stood there; outside nobody looked.
     assert state_at(grid, 1.5, 1.2) == FREE
     assert state_at(grid, 0.6, 0.6) == FREE
-    assert (grid.cells[:2] == UNKNOWN).all()
+    assert (grid.cells[0] == UNKNOWN).all()
+    assert (grid.cells[1] != FREE).all()  # noise may make the wall two cells thick here and there
+
+
+def width_of(grid, y, middle):
+    """Free width of the room across x at a y, from wall to wall."""
+    walls = np.flatnonzero(grid.cells[int((y - grid.origin_xy[1]) / grid.cell_m)] == OCCUPIED)
+    column = int((middle - grid.origin_xy[0]) / grid.cell_m)
+    left, right = walls[walls < column], walls[walls > column]
+    return (right.min() - left.max() - 1) * grid.cell_m if len(left) and len(right) else np.nan
+
+
+@pytest.mark.parametrize("with_normals", [True, False])
+def test_a_corridor_seen_along_its_walls_is_as_wide_as_it_is(rng, with_normals, monkeypatch):
+    if not with_normals:
+        monkeypatch.setattr(
+            RangeImage, "normals", lambda image, noise: np.zeros((len(image.points), 3), np.float32)
+        )
+    corridor = box_room(0, 0, 1.5, 8)
+    cameras = [camera(0.75, y, turn) for y in (0.5, 1.5, 2.5) for turn in (85.0, 90.0, 95.0)]
+    grid, _ = grid_of(corridor, cameras, rng)
+    widths = [width_of(grid, y, 0.75) for y in np.arange(1.5, 5.0, 0.05)]
+    assert np.isfinite(widths).mean() > 0.9
+    assert np.nanmedian(widths) == pytest.approx(1.5, abs=0.05 if with_normals else 0.1)
 
 
 def test_what_stands_in_the_way_and_what_does_not(rng):
