@@ -96,8 +96,9 @@ def whereabouts_text(graph: SemanticGraph, where: Whereabouts) -> str:
     pose = position_map(graph, where)
     if pose is None:
         x, y, z = where.T_world_camera[:3, 3]
-        return f"{text}, at x {x:.2f} y {y:.2f} z {z:.2f} m in the world."
-    return f"{text}, at x {pose[0]:.2f} y {pose[1]:.2f} m, heading {pose[2]:.0f}°."
+        return f"{text}, at x {x:z.2f} y {y:z.2f} z {z:z.2f} m in the world."
+    x, y, heading = pose
+    return f"{text}, on the map at x {x:z.2f} y {y:z.2f} m, heading {heading:z.0f}°."
 
 
 def whereabouts_json(graph: SemanticGraph, name: str, where: Whereabouts) -> dict[str, Any]:

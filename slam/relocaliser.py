@@ -66,8 +66,7 @@ class Relocation:
 class Relocaliser:
     """Recognises keyframes by their words, and measures the pose by features.
 
-    The words are made anew from the remembered descriptors, in the order of the keyframes: the
-    same memory gives the same answers. Depth helps where the image has it: without, the pose
+    The same memory gives the same answers. Depth helps where the image has it: without, the pose
     comes from the keyframes' points and the image's pixels alone (PnP).
     """
 
@@ -80,10 +79,9 @@ class Relocaliser:
     ) -> None:
         self.memory, self.tracker, self.settings = memory, tracker, settings
         self._by_id = {keyframe.id: keyframe for keyframe in memory.keyframes}
-        self._index = AppearanceIndex(appearance)
+        self._index = AppearanceIndex(appearance, memory.vocabulary)
         for keyframe in memory.keyframes:
-            words = self._index.words_of(keyframe.features.descriptors)
-            self._index.add(keyframe.id, words)
+            self._index.add(keyframe.id, keyframe.words)
 
     def locate(self, view: View) -> Relocation:
         """Find the keyframes that a view resembles and, where enough features agree, its pose."""

@@ -35,8 +35,12 @@ def _memory(rng, random_poses, is_binary):
             rng.uniform(0, 480, (count, 2)), descriptors, rng.uniform(2, 60, count).astype("f4")
         )
         points = rng.uniform(0.5, 6, (count, 3))
-        keyframes.append(RememberedKeyframe(3 * i, 0.1 * i, random_poses[i], features, points))
-    return KeyframeMemory(tuple(keyframes), CAMERA)
+        words = rng.integers(0, 9, 2 * count)
+        keyframes.append(
+            RememberedKeyframe(3 * i, 0.1 * i, random_poses[i], features, points, words)
+        )
+    vocabulary = np.concatenate([k.features.descriptors for k in keyframes])[:9]
+    return KeyframeMemory(tuple(keyframes), CAMERA, vocabulary)
 
 
 @pytest.mark.parametrize("is_binary", [False, True])
@@ -54,6 +58,9 @@ def test_a_memory_survives_the_disk(rng, random_poses, tmp_path, is_binary):
         assert np.allclose(ours.features.sizes, theirs.features.sizes, rtol=1e-3)
         assert np.array_equal(ours.features.descriptors, theirs.features.descriptors)
         assert ours.features.descriptors.dtype == theirs.features.descriptors.dtype
+        assert np.array_equal(ours.words, theirs.words)
+    assert np.array_equal(read.vocabulary, memory.vocabulary)
+    assert read.vocabulary.dtype == memory.vocabulary.dtype
 
 
 def test_what_is_no_memory_is_refused(tmp_path):
@@ -101,7 +108,7 @@ def mapped(rendered_walk):
     for index in range(0, len(walk), 2):
         slam.process(walk[index])
     slam.finish()
-    memory = remember(slam.keyframes.values(), slam.keyframe_poses)
+    memory = remember(slam.keyframes.values(), slam.keyframe_poses, slam.vocabulary)
     return slam, walk, memory
 
 
