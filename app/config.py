@@ -23,7 +23,10 @@ class RecordingSettings(Settings):
     """What is written on the way."""
 
     map_every: int = Field(
-        10, ge=2, description="keyframes between two drawings of the growing map; after a loop half"
+        10,
+        ge=2,
+        description="keyframes between two drawings of the growing map, at least: a 32nd "
+        "of a large one; after a loop half",
     )
     checkpoint_every: int = Field(
         200, ge=1, description="frames between two writings of the trajectory so far"

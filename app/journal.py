@@ -99,11 +99,11 @@ class Journal:
         return replace(view, label_ids=np.where(place >= 0, of_extent[place], view.label_ids))
 
     def sketch(self) -> Callable[[], MapView]:
-        """Return what draws the map as it is now, coarsely; see `Slam.sketch_map`.
+        """Return what draws the map as it is now, coarsely; see `Slam.map_sketcher`.
 
         Without a place's extent, what is seen through a door bears the label of this side of it.
         """
-        draw, labels = self.slam.sketch_map(), list(self.labels)
+        draw, labels = self.slam.map_sketcher(), list(self.labels)
         T_world_keyframe, links = self.slam.placed_poses, self.slam.links
         return lambda: _view_of(draw(), labels, T_world_keyframe, links)
 

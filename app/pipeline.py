@@ -42,8 +42,8 @@ Progress = Callable[[int, int, str], None]
 
 # Frames that labelling stays behind tracking.
 LABEL_LAG = 8
-# Of a large map, it has to grow by at least one part in so many to be drawn again.
-LEAST_GROWTH = 32
+# A large map is drawn again once it has grown by one part in so many.
+GROWTH_PARTS = 32
 
 
 class Pipeline:
@@ -170,9 +170,19 @@ class Pipeline:
                 self.viewer.log(tracking.index, event)
             if self._is_map_due(tracking):
                 self._drawn_keyframes, self._bent = len(self.slam.keyframes), False
-                self.viewer.show_map(tracking.index, self.journal.sketch())
+                self.viewer.show_map(tracking.index, self._sketch())
         self._done = tracking.index + 1
         self.progress(self._done, len(self.sequence), self._state(tracking))
+
+    def _sketch(self) -> Callable[[], MapView]:
+        """Return what draws the map as it is now, timed where it is drawn."""
+        draw = self.journal.sketch()
+
+        def timed() -> MapView:
+            with self.clock.stage("sketch"):
+                return draw()
+
+        return timed
 
     def _in_world(self, tracking: Tracking) -> Tracking:
         """Return a frame without its pose where that lies in a sub-map that is nowhere yet."""
@@ -183,7 +193,7 @@ class Pipeline:
 
     def _is_map_due(self, tracking: Tracking) -> bool:
         """Whether the map has grown enough since it was shown; half as much if loops bent it."""
-        every = max(self.settings.recording.map_every, self._drawn_keyframes // LEAST_GROWTH)
+        every = max(self.settings.recording.map_every, self._drawn_keyframes // GROWTH_PARTS)
         self._bent |= bool(tracking.closures)
         due = self._drawn_keyframes + (every // 2 if self._bent else every)
         first = tracking.is_keyframe and self._drawn_keyframes == 0

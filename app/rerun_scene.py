@@ -49,7 +49,7 @@ class Pose:
 
 
 def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: int) -> None:
-    """Send what does not change: axes, labels, camera, true path, names and colours of plots."""
+    """Send what does not change: axes, labels, camera, true path, style of images and plots."""
 
     def log(entity: str, *what: object) -> None:
         recording.log(entity, *what, static=True)

@@ -12,7 +12,7 @@ class ViewerSettings(Settings):
 
     colour_stride: int = Field(
         2, ge=1, description="a colour image is recorded n frames after the one before; keyframes' "
-        "and lost ones always",
+        "and those of lost and found frames always",
     )  # fmt: skip
     depth_stride: int = Field(4, ge=1, description="a depth image, likewise")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")

@@ -24,7 +24,7 @@ from app.rerun_sinks import open_sinks
 from app.viewer import MapView, SessionView
 from datasets.frame import Frame
 from semantics.graph import SemanticGraph
-from slam.tracking import Tracking
+from slam.tracking import Tracking, TrackingState
 
 __all__ = ["RerunViewer", "ViewerSettings"]
 
@@ -105,7 +105,10 @@ class RerunViewer:
             self._pictures.keep(tracking.anchor.keyframe, frame)
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
-        """Show a frame's label, which is known a few frames after the frame."""
+        """Show a frame's label, which is known a few frames after the frame.
+
+        The status in words is that of frames whose image is shown.
+        """
         self._at(frame)
         if self._has_labels:
             self._recording.log("plots/score", rr.Scalars(score))
@@ -176,9 +179,9 @@ class RerunViewer:
             self._recording.log(entity, rr.StateChange(state=state))
 
     def _show_images(self, frame: Frame, tracking: Tracking) -> None:
-        """Show images some frames after the last, and those that more hangs on."""
+        """Show images a stride after the one before, and those that more hangs on."""
         settings, log = self.settings, self._recording.log
-        matters = tracking.is_keyframe or not tracking.state.has_pose
+        matters = tracking.is_keyframe or tracking.state is not TrackingState.OK
         if matters or tracking.index - self._last_depth >= settings.depth_stride:
             self._last_depth = tracking.index
             png = rerun_images.encode_depth(frame, settings.depth_step)

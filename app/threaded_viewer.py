@@ -24,7 +24,7 @@ class ThreadedViewer:
     Parameters
     ----------
     viewer : Viewer
-        Is used from the thread only, but for `start`.
+        Is used from the thread only.
     """
 
     def __init__(self, viewer: Viewer) -> None:

@@ -99,8 +99,8 @@ class Viewer(Protocol):
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
         """Show the map as it is at a frame; takes the place of the one before.
 
-        `draw` makes it, later and in another thread if need be, so that a viewer without need of
-        it costs nothing.
+        `draw` makes it, so that a viewer without need of it costs next to nothing. It may be called
+        later and in another thread, but one at a time and in the order in which they came.
         """
         ...
 

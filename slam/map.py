@@ -162,7 +162,7 @@ class LiveMap:
     def update(
         self, keyframes: Mapping[int, Keyframe], T_world_keyframe: Mapping[int, FloatArray]
     ) -> PointMap:
-        """Follow the keyframes to their present poses and return the map."""
+        """Follow the keyframes to the poses given and return the map."""
         for keyframe, fused in list(self._fusion.fused.items()):
             if keyframe not in keyframes or self._has_moved(fused, T_world_keyframe[keyframe]):
                 self._fusion.remove(keyframe)

@@ -42,7 +42,7 @@ class RememberedKeyframe:
     points : (N, 3) float64
         Where they lie in its camera, metres.
     words : (M,) int
-        Of its strongest features, with depth or without.
+        Of its strongest features, with depth or without: rows of `KeyframeMemory.vocabulary`.
     """
 
     id: int
@@ -55,7 +55,17 @@ class RememberedKeyframe:
 
 @dataclass(frozen=True, slots=True)
 class KeyframeMemory:
-    """The keyframes of a run, the (undistorted) camera that saw them, and their words (W, D)."""
+    """What is kept of a run's keyframes.
+
+    Attributes
+    ----------
+    keyframes : tuple of RememberedKeyframe
+        In the order in which they were made.
+    intrinsics : Intrinsics
+        The (undistorted) camera that saw them.
+    vocabulary : (W, D) array
+        The words that keyframes are recognised by, as descriptors.
+    """
 
     keyframes: tuple[RememberedKeyframe, ...]
     intrinsics: Intrinsics
@@ -72,7 +82,10 @@ def remember(
     T_world_keyframe: Mapping[int, FloatArray],
     vocabulary: NDArray[Any],
 ) -> KeyframeMemory | None:
-    """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none."""
+    """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none.
+
+    `vocabulary` (W, D) are the descriptors that their words stand for.
+    """
     every = list(keyframes)
     kept = []
     for keyframe in every:
@@ -117,6 +130,7 @@ def write_memory(path: Path, memory: KeyframeMemory) -> None:
         "words": np.concatenate([k.words for k in memory.keyframes]).astype(np.int32),
         "vocabulary": _as_bytes(memory.vocabulary),
     }
+    # Compressed it would take a quarter less room, and thirty times as long.
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez(file, allow_pickle=False, **values)
 
@@ -149,6 +163,7 @@ def read_memory(path: Path) -> KeyframeMemory:
         raise SlamError(
             "keyframes not understood", where=path, expected=SCHEMA,
             got=f"{type(error).__name__} {error}",
+            hint="map the sequence again with `roomgraph run`",
         ) from error  # fmt: skip
 
 
@@ -159,9 +174,12 @@ def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
     ends = np.cumsum(values["counts"])
     if not len(pixels) == len(points) == len(sizes) == len(descriptors) == int(ends[-1]):
         raise ValueError("features of different number")
-    words = np.split(values["words"].astype(np.intp), np.cumsum(values["word_counts"]))
-    if len(words) != len(ends) + 1 or len(words[-1]):
+    word_ends = np.cumsum(values["word_counts"])
+    if len(word_ends) != len(ends) or word_ends[-1] != len(values["words"]):
         raise ValueError("words of different number")
+    if values["words"].max(initial=-1) >= len(values["vocabulary"]):
+        raise ValueError("a word that is not in the vocabulary")
+    words = np.split(values["words"].astype(np.intp), word_ends[:-1])
     kept = []
     for i, (end, count) in enumerate(zip(ends, values["counts"], strict=True)):
         rows = slice(int(end - count), int(end))

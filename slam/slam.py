@@ -195,10 +195,11 @@ class Slam:
         placed = [k for k in self.keyframes.values() if k.id in self._backend.placed]
         return build_map(placed, self.keyframe_poses, self.settings.map, self.settings.noise)
 
-    def sketch_map(self) -> Callable[[], PointMap]:
+    def map_sketcher(self) -> Callable[[], PointMap]:
         """Return what draws a coarse map of the keyframes as they are now.
 
-        It may be called later and in another thread, but each before the next.
+        It may be called later and in another thread, but one at a time and in the order in which
+        they were asked for.
         """
         placed = {k: v for k, v in self.keyframes.items() if k in self._backend.placed}
         return partial(self._live_map.update, placed, self.placed_poses)

@@ -84,7 +84,8 @@ def carve(
     In a keyframe a cell with a surface is hit, not passed, as in OctoMap (Hornung et al., 2013,
     section 5.1). A reading whose noise exceeds a cell's half hits nothing: it only carves, up to
     twice its noise and a cell before where it ends, so that walls stay as thin as they are.
-    Hits lie half a cell and a standard deviation behind the surface, along its normal.
+    Hits lie half a cell and a standard deviation behind the surface, along its normal, but as high
+    as it does.
 
     Parameters
     ----------
@@ -165,19 +166,21 @@ def _carve(
         # that noise moves to this side of it, one standard deviation more leaves but a few.
         behind = 0.5 * cell + sigma
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
+        has_normal = nx != 0 or ny != 0 or nz != 0
         up = T[2, 0] * nx + T[2, 1] * ny + T[2, 2] * nz
-        if nx == 0 and ny == 0 and nz == 0:
+        # How high it lies is not moved: what stands on the floor would sink into it.
+        height = start[2] + A[2, 0] * x + A[2, 1] * y + A[2, 2] * z
+        if not has_normal:
             length = max(np.sqrt(x * x + y * y + z * z), 1e-6)
             nx, ny, nz = -x / length, -y / length, -z / length
         x, y, z = x - behind * nx, y - behind * ny, z - behind * nz
         layer, row, column = _cell(
             start[0] + A[0, 0] * x + A[0, 1] * y + A[0, 2] * z,
             start[1] + A[1, 0] * x + A[1, 1] * y + A[1, 2] * z,
-            start[2] + A[2, 0] * x + A[2, 1] * y + A[2, 2] * z,
-            lowest, hits.shape,
+            height, lowest, hits.shape,
         )  # fmt: skip
-        if layer == 0 and 0 < up * up < 0.5:
-            continue  # The foot of a wall is no floor, least of all behind it.
+        if layer == 0 and has_normal and up * up < 0.5:
+            continue  # What is steeper than 45 degrees, the foot of a wall, is no floor.
         if layer >= 0 and last[layer, row, column] != stamp + 1:
             last[layer, row, column] = stamp + 1
             hits[layer, row, column] += 1

@@ -190,6 +190,19 @@ def test_images_are_there_with_their_stamps(recorded: Recorded) -> None:
     assert stamps[6].total_seconds() == pytest.approx(100.6)
 
 
+def test_what_all_images_have_alike_is_there_once(recorded: Recorded) -> None:
+    depth = "/world/camera/depth/image"
+    assert recorded.values(depth, "EncodedDepthImage:meter") == {None: [100.0]}
+    assert recorded.values(depth, "EncodedDepthImage:media_type") == {None: ["image/png"]}
+    assert recorded.values(depth, "EncodedDepthImage:depth_range") == {None: [[0.0, 500.0]]}
+    colour = "/world/camera/image/colour"
+    assert recorded.values(colour, "EncodedImage:media_type") == {None: ["image/jpeg"]}
+    for kind in ("plain", "with_depth"):
+        entity = f"/world/camera/image/features/{kind}"
+        assert set(recorded.values(entity, "Points2D:colors")) == {None}
+        assert set(recorded.values(entity, "Points2D:radii")) == {None}
+
+
 def test_poses_come_back(recorded: Recorded) -> None:
     translations = recorded.values("/world/camera", "Transform3D:translation")
     rotations = recorded.values("/world/camera", "Transform3D:mat3x3")
@@ -354,7 +367,10 @@ def test_it_stays_small(recording: Path) -> None:
 
 def test_maps_are_thinned_and_left_out_when_too_many(tmp_path: Path) -> None:
     path = tmp_path / "thin.rrd"
-    record(path, ViewerSettings(max_points=1000, max_points_total=0, colour_stride=4))
+    record(
+        path,
+        ViewerSettings(max_points=1000, max_points_total=0, colour_stride=4, depth_stride=2),
+    )
     recorded = Recorded.read(path)
     rows = recorded.rows["/world/map/colour"]
     above = recorded.rows["/world/map/above"]
@@ -367,6 +383,8 @@ def test_maps_are_thinned_and_left_out_when_too_many(tmp_path: Path) -> None:
     assert sorted(paths) == [0, 9, N_FRAMES - 1]
     jpegs = recorded.values("/world/camera/image/colour", "EncodedImage:blob")
     assert sorted(jpegs) == [0, 3, 5, 6, 9]  # of the others, none is four after the one before
+    depths = recorded.values("/world/camera/depth/image", "EncodedDepthImage:blob")
+    assert sorted(depths) == [0, 2, 3, 5, 6, 8, 9, 11]
 
 
 def test_a_run_without_a_single_pose_can_be_closed(tmp_path: Path) -> None:

@@ -70,11 +70,25 @@ def test_what_is_no_memory_is_refused(tmp_path):
     path.write_bytes(b"PK nonsense")
     with pytest.raises(SlamError, match="not understood"):
         read_memory(path)
-    np.savez(path, schema=np.array("something/else"))
-    with pytest.raises(SlamError, match="something/else"):
+    np.savez(path, schema=np.array("roomgraph/keyframes/1"))
+    with pytest.raises(SlamError, match=r"keyframes/1[\s\S]*roomgraph run"):
         read_memory(path)
     np.savez(path, schema=np.array([{}], dtype=object))
     with pytest.raises(SlamError, match="not understood"):
+        read_memory(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [("word_counts", lambda v: v + 1), ("words", lambda v: v + 9), ("words", lambda v: v[1:])],
+)
+def test_a_memory_whose_words_do_not_fit_is_refused(rng, random_poses, tmp_path, name, change):
+    path = tmp_path / "keyframes.npz"
+    write_memory(path, _memory(rng, random_poses, is_binary=False))
+    with np.load(path) as file:
+        values = dict(file)
+    np.savez(path, **{**values, name: change(values[name])})
+    with pytest.raises(SlamError, match="word"):
         read_memory(path)
 
 

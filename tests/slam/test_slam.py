@@ -1,5 +1,7 @@
 """The low layer on a real short sequence: the rendered walk."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from datasets.frame import Frame
 from datasets.sequence import frames_of, select
 from datasets.trajectory import Trajectory
 from slam.evaluation import compare
+from slam.map import LiveMap
 from slam.slam import Slam, SlamSettings
 from slam.tracking import TrackingState
 
@@ -132,12 +135,15 @@ def test_a_sketch_shows_the_map_as_it_was_when_it_was_asked_for(rendered_sequenc
     for frame in frames_of(select(rendered_sequence, frames=60)):
         slam.process(frame)
         if draw is None and len(slam.keyframes) >= 2:
-            asked, draw = set(slam.keyframes), slam.sketch_map()
+            draw = slam.map_sketcher()
+            then, T_then = dict(slam.keyframes), slam.placed_poses
     slam.finish()
-    assert draw is not None
-    shown = draw().keyframes
-    assert set(shown.tolist()) <= asked < set(slam.keyframes)
-    assert len(slam.sketch_map()()) > len(shown)
+    assert draw is not None and len(then) < len(slam.keyframes)
+    with ThreadPoolExecutor(1) as another:
+        shown = another.submit(draw).result()
+    wanted = LiveMap(slam.settings.map, slam.settings.noise).update(then, T_then)
+    assert len(shown) and np.array_equal(shown.points_world, wanted.points_world)
+    assert len(slam.map_sketcher()()) > len(shown)
 
 
 def test_map_lies_on_the_rooms_surfaces(tracked):

@@ -54,6 +54,16 @@ def test_rays_carve_and_nothing_else(rng):
     assert (grid.cells[1] != FREE).all()  # noise may make the wall two cells thick here and there
 
 
+def rows_of(grid, low, high):
+    """First and last row, that one left out, between two y."""
+    return np.floor((np.array([low, high]) - grid.origin_xy[1]) / grid.cell_m).astype(int)
+
+
+def columns_of(grid, low, high):
+    """First and last column, that one left out, between two x."""
+    return np.floor((np.array([low, high]) - grid.origin_xy[0]) / grid.cell_m).astype(int)
+
+
 def width_of(grid, y, middle):
     """Free width of the room across x at a y, from wall to wall."""
     walls = np.flatnonzero(grid.cells[int((y - grid.origin_xy[1]) / grid.cell_m)] == OCCUPIED)
@@ -89,6 +99,28 @@ def test_what_stands_in_the_way_and_what_does_not(rng):
     assert state_at(grid, 2.2, 1.8) == FREE
     shelf = {state_at(grid, x, 1.7) for x in np.arange(0.5, 1.0, 0.05)}
     assert OCCUPIED in shelf
+
+
+def test_what_is_low_or_thin_stands_in_the_way_too(rng):
+    things = [
+        (0.6, 0.6, 0.0, 0.9, 0.9, 0.14),  # a low box
+        (2.0, 1.6, 0.0, 2.04, 1.64, 1.5),  # a post
+        (2.4, 0.3, 0.0, 2.44, 1.1, 2.0),  # a door leaf
+    ]
+    cameras = [*around(1.5, 1.2, 1.1, 15, 24), *around(1.3, 0.9, 1.1, 45, 24)]
+    grid, _ = grid_of(box_room(0, 0, 3, 2.4) + things, cameras, rng)
+    assert state_at(grid, 0.75, 0.75) != FREE
+    post = grid.cells[slice(*rows_of(grid, 1.55, 1.7)), slice(*columns_of(grid, 1.95, 2.1))]
+    assert OCCUPIED in post
+    leaf = {state_at(grid, x, 0.7) for x in np.arange(2.35, 2.5, 0.05)}
+    assert OCCUPIED in leaf
+
+
+def test_large_cells_leave_the_floor_where_it_is(rng):
+    _, space = grid_of(
+        box_room(0, 0, 3, 2.4), around(1.5, 1.2, 1.4, 30, 24), rng, SpaceSettings(cell_m=0.2)
+    )
+    assert space.hits[0].any()
 
 
 def test_a_view_over_a_counter_does_not_free_it(rng):
