@@ -58,8 +58,8 @@ def map_sequence(
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(note, dim=True)
+        viewer = _viewer(folder, settings, showing)  # is made while the data is looked at
         findings = _check(sequence, settings, terminal)
-        viewer = _viewer(folder, settings, showing)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(
                 sequence, settings, model, Recorder(folder), viewer, advance,
@@ -104,8 +104,12 @@ def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSett
 def _viewer(folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewer:
     if not showing.live and not showing.save:
         return NoViewer()
-    from app.rerun_viewer import RerunViewer
     from app.threaded_viewer import ThreadedViewer
 
+    def make() -> Viewer:
+        from app.rerun_viewer import RerunViewer
+
+        return RerunViewer(save, showing.live, settings.viewer)
+
     save = folder.recording if showing.save else None
-    return ThreadedViewer(RerunViewer(save, showing.live, settings.viewer))
+    return ThreadedViewer(make)

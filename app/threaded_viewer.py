@@ -16,25 +16,26 @@ _WAITING = 32
 
 
 class ThreadedViewer:
-    """Hands all that it is told to another viewer, in order, in a thread of its own.
+    """Makes another viewer and hands it all that it is told, in order, in a thread of its own.
 
     Where the other viewer falls behind, the run waits. What goes wrong in the thread is raised by
     the next call, and by `close` at the latest.
 
     Parameters
     ----------
-    viewer : Viewer
-        Is used from the thread only.
+    make : callable
+        Makes the other viewer; called at once, in the thread, for that may take its time. The
+        viewer is used from the thread only.
     """
 
-    def __init__(self, viewer: Viewer) -> None:
-        self._viewer = viewer
+    def __init__(self, make: Callable[[], Viewer]) -> None:
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="viewer")
+        self._made = self._pool.submit(make)
         self._waiting: deque[Future[None]] = deque()
 
     def start(self, session: SessionView) -> None:
         """Start the other viewer and wait until it stands."""
-        self._pool.submit(self._viewer.start, session).result()
+        self._pool.submit(lambda: self._viewer.start(session)).result()
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
         """Hand on a frame."""
@@ -58,12 +59,17 @@ class ThreadedViewer:
 
     def close(self) -> None:
         """Wait for all that was handed on, and close the other viewer."""
-        self._waiting.append(self._pool.submit(self._viewer.close))
+        self._waiting.append(self._pool.submit(lambda: self._viewer.close()))
         try:
             while self._waiting:
                 self._waiting.popleft().result()
         finally:
             self._pool.shutdown()
+
+    @property
+    def _viewer(self) -> Viewer:
+        """The other viewer, for the thread, which has made it before anything else."""
+        return self._made.result()
 
     def _later(self, work: Callable[[], None]) -> None:
         while self._waiting and (len(self._waiting) >= _WAITING or self._waiting[0].done()):

@@ -47,7 +47,7 @@ class Witness:
 
 def test_it_hands_on_everything_in_order_from_one_thread():
     witness = Witness()
-    viewer = ThreadedViewer(witness)
+    viewer = ThreadedViewer(lambda: witness)
     viewer.start("session")
     wanted = [("start", "session")]
     drawn_in = set()
@@ -74,7 +74,7 @@ def test_it_hands_on_everything_in_order_from_one_thread():
 def test_the_run_waits_for_a_viewer_that_falls_behind():
     gate = threading.Event()
     inner = SimpleNamespace(log=lambda frame, text: gate.wait(), close=lambda: None)
-    viewer = ThreadedViewer(inner)
+    viewer = ThreadedViewer(lambda: inner)
     done = []
 
     def run():
@@ -95,7 +95,7 @@ def test_the_run_waits_for_a_viewer_that_falls_behind():
 
 def test_what_goes_wrong_is_raised_and_the_viewer_closed_all_the_same():
     witness = Witness(fails_at=("log", 3, "x"))
-    viewer = ThreadedViewer(witness)
+    viewer = ThreadedViewer(lambda: witness)
     viewer.start("session")
     with pytest.raises(AppError, match="disk is full"):
         for i in range(1000):
@@ -105,7 +105,7 @@ def test_what_goes_wrong_is_raised_and_the_viewer_closed_all_the_same():
 
 
 def test_a_failure_at_the_very_end_is_raised_by_close():
-    viewer = ThreadedViewer(Witness(fails_at=("log", 0, "x")))
+    viewer = ThreadedViewer(lambda: Witness(fails_at=("log", 0, "x")))
     viewer.start("session")
     viewer.log(0, "x")
     with pytest.raises(AppError, match="disk is full"):
@@ -114,4 +114,17 @@ def test_a_failure_at_the_very_end_is_raised_by_close():
 
 def test_one_that_cannot_start_says_so_at_once():
     with pytest.raises(AppError, match="disk is full"):
-        ThreadedViewer(Witness(fails_at=("start", "session"))).start("session")
+        ThreadedViewer(lambda: Witness(fails_at=("start", "session"))).start("session")
+
+
+def test_it_makes_the_viewer_in_its_thread_and_tells_at_the_start_if_that_fails():
+    made_in = []
+
+    def make():
+        made_in.append(threading.get_ident())
+        raise OSError("no such viewer")
+
+    viewer = ThreadedViewer(make)
+    with pytest.raises(OSError, match="no such viewer"):
+        viewer.start("session")
+    assert made_in != [threading.get_ident()]
