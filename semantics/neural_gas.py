@@ -37,8 +37,8 @@ class NeuralGas(Estimator):
     initial_step, final_step : float
         eps at the first and the last batch, in (0, 1].
     initial_range, final_range : float
-        lambda at the first and the last batch, in ranks; an initial range of None is
-        ``n_vectors / 2``.
+        lambda at the first and the last batch, in ranks; at first ``n_vectors / 2`` at most.
+        These defaults, and those of the steps, are the ones that Fritzke (1997) names as the paper's.
     settling : int
         Passes at the end in which each prototype goes to the mean of its samples: the limit of
         range 0, where Neural Gas is k-means (section II of the paper), without the last steps'
@@ -63,7 +63,7 @@ class NeuralGas(Estimator):
         batch_size: int = 256,
         initial_step: float = 0.5,
         final_step: float = 0.005,
-        initial_range: float | None = None,
+        initial_range: float = 10.0,
         final_range: float = 0.01,
         settling: int = 2,
         random_state: int | np.random.Generator | None = None,
@@ -101,7 +101,7 @@ class NeuralGas(Estimator):
         mean = samples.mean(axis=0)
         prototypes = samples[self._first_choice(len(samples), random)] - mean
         batches = self._batches(len(samples), random)
-        first_range = self.n_vectors / 2 if self.initial_range is None else self.initial_range
+        first_range = min(self.initial_range, self.n_vectors / 2)
         for progress, batch in zip(np.linspace(0, 1, len(batches)), batches, strict=True):
             step = self.initial_step * (self.final_step / self.initial_step) ** progress
             reach = first_range * (self.final_range / first_range) ** progress
@@ -185,7 +185,7 @@ class NeuralGas(Estimator):
                 raise ValueError(f"{name} must be in (0, 1], got {getattr(self, name)}")
         for name in ("initial_range", "final_range"):
             value = getattr(self, name)
-            if value is not None and value <= 0:
+            if value <= 0:
                 raise ValueError(f"{name} must be above 0, got {value}")
 
     def _error(self, samples: NDArray[np.float32]) -> float:
