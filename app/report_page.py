@@ -28,7 +28,7 @@ from slam.evaluation import compare
 # What the stages of a run are called. Some run in a thread beside the others.
 _STAGES = {
     "read": "reading (beside)", "features": "features (beside)", "track": "tracking",
-    "view": "showing", "sketch": "map on the way (beside)", "label": "labelling",
+    "view": "showing", "sketch": "sketch (beside)", "label": "labelling",
     "graph": "graph", "map": "cloud (beside)",
     "survey": "free space", "extents": "rooms", "write": "writing poses",
     "write graph": "writing graph", "write map": "writing cloud", "close": "ending recording",

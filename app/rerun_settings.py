@@ -11,8 +11,8 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     colour_stride: int = Field(
-        2, ge=1, description="a colour image is recorded n frames after the one before; keyframes' "
-        "and those of lost and found frames always",
+        2, ge=1, description="a colour image is recorded n frames after the one before; those "
+        "of keyframes, lost and found frames and the last one always",
     )  # fmt: skip
     depth_stride: int = Field(4, ge=1, description="a depth image, likewise")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")

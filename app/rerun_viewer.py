@@ -181,7 +181,8 @@ class RerunViewer:
     def _show_images(self, frame: Frame, tracking: Tracking) -> None:
         """Show images a stride after the one before, and those that more hangs on."""
         settings, log = self.settings, self._recording.log
-        matters = tracking.is_keyframe or tracking.state is not TrackingState.OK
+        is_last = tracking.index + 1 == self._session.frames
+        matters = is_last or tracking.is_keyframe or tracking.state is not TrackingState.OK
         if matters or tracking.index - self._last_depth >= settings.depth_stride:
             self._last_depth = tracking.index
             png = rerun_images.encode_depth(frame, settings.depth_step)

@@ -38,7 +38,7 @@ class NeuralGas(Estimator):
         eps at the first and the last batch, in (0, 1].
     initial_range, final_range : float
         lambda at the first and the last batch, in ranks; at first ``n_vectors / 2`` at most.
-        These defaults, and those of the steps, are the ones that Fritzke (1997) names as the paper's.
+        These defaults and those of the steps are what Fritzke (1997) names as the paper's.
     settling : int
         Passes at the end in which each prototype goes to the mean of its samples: the limit of
         range 0, where Neural Gas is k-means (section II of the paper), without the last steps'

@@ -15,6 +15,7 @@ from scipy import ndimage, sparse
 from datasets import poses
 from semantics.errors import SemanticsError
 from semantics.graph import Doorway, SemanticGraph
+from semantics.labels import UNKNOWN
 from slam.occupancy import FREE, OccupancyGrid
 
 FloatArray = NDArray[np.float64]
@@ -90,6 +91,7 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
         places = [place for place in graph.places if plain(kinds[place]) == wanted]
     if not places:
         known = dict.fromkeys([*graph.places, *(node.label for node in graph.nodes)])
+        known.pop(UNKNOWN, None)
         raise SemanticsError(
             "no such place", where=name, expected=", ".join(known),
             hint="or give coordinates: x,y in the map frame, x,y,z in the world",
