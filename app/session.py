@@ -65,7 +65,12 @@ def map_sequence(
                 sequence, settings, model, Recorder(folder), viewer, advance,
                 warnings=map(str, findings),
             )  # fmt: skip
-            metrics = pipeline.run()
+            try:
+                metrics = pipeline.run()
+            except KeyboardInterrupt:
+                say = f"`roomgraph report {folder.root}` and `roomgraph view {folder.root}` show it"
+                terminal.say(f"What was mapped until now is in {folder.root}: {say}.")
+                raise
         if showing.report and metrics["frames_tracked"]:
             from app.report_page import write_report
 

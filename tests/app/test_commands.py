@@ -200,8 +200,10 @@ def test_interruption_keeps_what_was_done(rendered_walk, tmp_path, monkeypatch, 
 
     monkeypatch.setattr(Pipeline, "_label", interrupted)
     out = tmp_path / "out"
-    assert roomgraph(monkeypatch, "run", rendered_walk, "-o", out, "--quiet", "--no-rrd") == 130
-    assert "on disk" in capsys.readouterr().err
+    assert roomgraph(monkeypatch, "run", rendered_walk, "-o", out, "--no-rrd") == 130
+    said = capsys.readouterr()
+    assert "on disk" in said.err
+    assert f"roomgraph report {out}" in said.out.replace("\n", "")
     assert len(read_tum(out / "trajectory.tum")) == 21
     assert json.loads((out / "metrics.json").read_text())["frames"] == 60
 
