@@ -267,7 +267,7 @@ class Pipeline:
         if keyframes:
             stamps_s = {k.id: k.stamp_s for k in keyframes}
             self.recorder.write_pose_graph(self.slam.mapper.graph, stamps_s)
-        self.recorder.write_memory(remember(keyframes, placed, self.slam.vocabulary))
+        self.recorder.write_memory(remember(keyframes, placed))
 
     def _write_graph(self, graph: SemanticGraph, surveyed: Survey | None) -> None:
         self.recorder.write_graph(graph)

@@ -32,30 +32,16 @@ class AppearanceIndex:
     al. (2008) for the vocabulary made on the way.
 
     One thread may make words while another adds keyframes and ranks them.
-
-    Parameters
-    ----------
-    settings : AppearanceSettings
-        How words are made.
-    vocabulary : (W, D) array, optional
-        The words to begin with, as descriptors.
     """
 
-    def __init__(
-        self, settings: AppearanceSettings, vocabulary: NDArray[Any] | None = None
-    ) -> None:
+    def __init__(self, settings: AppearanceSettings) -> None:
         self.settings = settings
-        self._words: NDArray[Any] = np.empty((0, 0)) if vocabulary is None else vocabulary
+        self._words: NDArray[Any] = np.empty((0, 0))
         # By word: the keyframes that hold it, and its weight in each.
         self._holders: defaultdict[int, tuple[array[int], array[float]]] = defaultdict(
             lambda: (array("q"), array("d"))
         )
         self._keyframes = 0
-
-    @property
-    def vocabulary(self) -> NDArray[Any]:
-        """The words so far (W, D), as descriptors."""
-        return self._words
 
     def words_of(self, descriptors: NDArray[Any], grow: bool = True) -> NDArray[np.intp]:
         """Return the word (n,) of each of the descriptors (N, D), new ones made where needed.

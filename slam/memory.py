@@ -20,7 +20,7 @@ from slam.local_map import LocalMap, local_map
 
 FloatArray = NDArray[np.float64]
 
-SCHEMA = "roomgraph/keyframes/2"
+SCHEMA = "roomgraph/keyframes/1"
 # Of a keyframe's features with depth, the strongest so many are kept: about 75 kB.
 MAX_FEATURES = 500
 
@@ -41,8 +41,6 @@ class RememberedKeyframe:
         N features with depth, the strongest first.
     points : (N, 3) float64
         Where they lie in its camera, metres.
-    words : (M,) int
-        Of its strongest features, with depth or without: rows of `KeyframeMemory.vocabulary`.
     """
 
     id: int
@@ -50,26 +48,14 @@ class RememberedKeyframe:
     T_world_keyframe: FloatArray
     features: Features
     points: FloatArray
-    words: NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)
 class KeyframeMemory:
-    """What is kept of a run's keyframes.
-
-    Attributes
-    ----------
-    keyframes : tuple of RememberedKeyframe
-        In the order in which they were made.
-    intrinsics : Intrinsics
-        The (undistorted) camera that saw them.
-    vocabulary : (W, D) array
-        The words that keyframes are recognised by, as descriptors.
-    """
+    """The keyframes of a run with the (undistorted) camera that saw them."""
 
     keyframes: tuple[RememberedKeyframe, ...]
     intrinsics: Intrinsics
-    vocabulary: NDArray[Any]
 
     @property
     def positions(self) -> FloatArray:
@@ -78,14 +64,9 @@ class KeyframeMemory:
 
 
 def remember(
-    keyframes: Iterable[Keyframe],
-    T_world_keyframe: Mapping[int, FloatArray],
-    vocabulary: NDArray[Any],
+    keyframes: Iterable[Keyframe], T_world_keyframe: Mapping[int, FloatArray]
 ) -> KeyframeMemory | None:
-    """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none.
-
-    `vocabulary` (W, D) are the descriptors that their words stand for.
-    """
+    """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none."""
     every = list(keyframes)
     kept = []
     for keyframe in every:
@@ -94,11 +75,9 @@ def remember(
         features = Features(found.pixels[rows], found.descriptors[rows], found.sizes[rows])
         T = np.array(T_world_keyframe[keyframe.id])
         kept.append(
-            RememberedKeyframe(
-                keyframe.id, keyframe.stamp_s, T, features, keyframe.points[rows], keyframe.words
-            )
+            RememberedKeyframe(keyframe.id, keyframe.stamp_s, T, features, keyframe.points[rows])
         )
-    return KeyframeMemory(tuple(kept), every[0].intrinsics, vocabulary) if kept else None
+    return KeyframeMemory(tuple(kept), every[0].intrinsics) if kept else None
 
 
 def joined(keyframes: Iterable[RememberedKeyframe]) -> LocalMap:
@@ -126,9 +105,6 @@ def write_memory(path: Path, memory: KeyframeMemory) -> None:
         "sizes": np.concatenate([f.sizes for f in found]).astype(np.float16),
         "points": np.concatenate([k.points for k in memory.keyframes]).astype(np.float32),
         "descriptors": np.concatenate([_as_bytes(f.descriptors) for f in found]),
-        "word_counts": np.array([len(k.words) for k in memory.keyframes]),
-        "words": np.concatenate([k.words for k in memory.keyframes]).astype(np.int32),
-        "vocabulary": _as_bytes(memory.vocabulary),
     }
     # Compressed it would take a quarter less room, and thirty times as long.
     with replacing(path) as temporary, temporary.open("wb") as file:
@@ -151,9 +127,7 @@ def read_memory(path: Path) -> KeyframeMemory:
         width, height = (int(v) for v in values["size"])
         fx, fy, cx, cy = (float(v) for v in values["camera"])
         intrinsics = Intrinsics(width, height, fx, fy, cx, cy)
-        return KeyframeMemory(
-            tuple(_keyframes(values)), intrinsics, _descriptors(values, "vocabulary")
-        )
+        return KeyframeMemory(tuple(_keyframes(values)), intrinsics)
     except FileNotFoundError as error:
         raise SlamError(
             "no keyframes to recognise places by", where=path, expected="a finished run",
@@ -168,18 +142,14 @@ def read_memory(path: Path) -> KeyframeMemory:
 
 
 def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
-    descriptors = _descriptors(values, "descriptors")
+    descriptors = values["descriptors"]
+    if not values["is_binary"]:
+        descriptors = descriptors.astype(np.float32)
     pixels, points = values["pixels"].astype(np.float64), values["points"].astype(np.float64)
     sizes = values["sizes"].astype(np.float32)
     ends = np.cumsum(values["counts"])
     if not len(pixels) == len(points) == len(sizes) == len(descriptors) == int(ends[-1]):
         raise ValueError("features of different number")
-    word_ends = np.cumsum(values["word_counts"])
-    if len(word_ends) != len(ends) or word_ends[-1] != len(values["words"]):
-        raise ValueError("words of different number")
-    if values["words"].max(initial=-1) >= len(values["vocabulary"]):
-        raise ValueError("a word that is not in the vocabulary")
-    words = np.split(values["words"].astype(np.intp), word_ends[:-1])
     kept = []
     for i, (end, count) in enumerate(zip(ends, values["counts"], strict=True)):
         rows = slice(int(end - count), int(end))
@@ -187,15 +157,10 @@ def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
         kept.append(
             RememberedKeyframe(
                 int(values["ids"][i]), float(values["stamps_s"][i]),
-                values["T_world_keyframe"][i], features, points[rows], words[i],
+                values["T_world_keyframe"][i], features, points[rows],
             )
         )  # fmt: skip
     return kept
-
-
-def _descriptors(values: Mapping[str, NDArray[Any]], name: str) -> NDArray[Any]:
-    """Return descriptors as they are compared."""
-    return values[name] if values["is_binary"] else values[name].astype(np.float32)
 
 
 def _as_bytes(descriptors: NDArray[Any]) -> NDArray[np.uint8]:

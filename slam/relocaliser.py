@@ -66,7 +66,8 @@ class Relocation:
 class Relocaliser:
     """Recognises keyframes by their words, and measures the pose by features.
 
-    The same memory gives the same answers. Depth helps where the image has it: without, the pose
+    The words are made anew from the remembered descriptors, in the order of the keyframes: the
+    same memory gives the same answers. Depth helps where the image has it: without, the pose
     comes from the keyframes' points and the image's pixels alone (PnP).
     """
 
@@ -79,9 +80,10 @@ class Relocaliser:
     ) -> None:
         self.memory, self.tracker, self.settings = memory, tracker, settings
         self._by_id = {keyframe.id: keyframe for keyframe in memory.keyframes}
-        self._index = AppearanceIndex(appearance, memory.vocabulary)
+        self._index = AppearanceIndex(appearance)
         for keyframe in memory.keyframes:
-            self._index.add(keyframe.id, keyframe.words)
+            words = self._index.words_of(keyframe.features.descriptors)
+            self._index.add(keyframe.id, words)
 
     def locate(self, view: View) -> Relocation:
         """Find the keyframes that a view resembles and, where enough features agree, its pose."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,11 +169,6 @@ class Slam:
     def pose_of(self, anchor: Anchor) -> FloatArray:
         """Return T_world_camera (4, 4) of an anchored pose, as estimated now."""
         return np.asarray(self._backend.poses[anchor.keyframe] @ anchor.T_keyframe_camera)
-
-    @property
-    def vocabulary(self) -> NDArray[Any]:
-        """The words (W, D) that keyframes are recognised by, as descriptors."""
-        return self.mapper.loops.index.vocabulary
 
     @property
     def links(self) -> tuple[Link, ...]:
