@@ -51,7 +51,8 @@ def test_rays_carve_and_nothing_else(rng):
     assert state_at(grid, 1.5, 1.2) == FREE
     assert state_at(grid, 0.6, 0.6) == FREE
     assert (grid.cells[0] == UNKNOWN).all()
-    assert (grid.cells[1] != FREE).all()  # noise may make the wall two cells thick here and there
+    assert (grid.cells[1] != FREE).all()
+    assert (grid.cells[1] == OCCUPIED).sum() <= 2  # noise may thicken the wall here and there
 
 
 def rows_of(grid, low, high):
