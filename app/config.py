@@ -23,10 +23,10 @@ class RecordingSettings(Settings):
     """What is written on the way."""
 
     map_every: int = Field(
-        10,
+        16,
         ge=2,
-        description="keyframes between two drawings of the growing map, at least: a 32nd "
-        "of a large one; after a loop half",
+        description="keyframes between two drawings of the growing map, at least: a 16th "
+        "of a large one",
     )
     checkpoint_every: int = Field(
         200, ge=1, description="frames between two writings of the trajectory so far"

@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from app.clock import StageClock
 from app.config import AppSettings
+from app.growth import GrowthGate
 from app.journal import Journal
 from app.metrics import run_metrics
 from app.prefetch import prefetch
@@ -42,8 +43,8 @@ Progress = Callable[[int, int, str], None]
 
 # Frames that labelling stays behind tracking.
 LABEL_LAG = 8
-# A large map is drawn again once it has grown by one part in so many.
-GROWTH_PARTS = 32
+# A large map or graph is drawn again once it has grown by one part in so many.
+GROWTH_PARTS = 16
 
 
 class Pipeline:
@@ -87,7 +88,9 @@ class Pipeline:
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
         self.journal = Journal(self.slam)
         self._unlabelled: deque[Tracking] = deque()
-        self._drawn_keyframes, self._bent, self._done = 0, False, 0
+        self._map_gate = GrowthGate(settings.recording.map_every, GROWTH_PARTS)
+        self._graph_gate = GrowthGate(1, GROWTH_PARTS)
+        self._done = 0
 
     def run(self) -> dict[str, Any]:
         """Map the whole sequence and return its metrics.
@@ -151,15 +154,16 @@ class Pipeline:
                 self._enter(label.tracking.index)
 
     def _enter(self, frame: int) -> None:
-        """Show the graph with its new node, and say so if it lies in another place."""
+        """Show the graph with its new node if it is time, or if that lies in another place."""
         graph = self.topology.snapshot(self.slam.placed_poses, partial=True)
-        self.viewer.show_graph(frame, graph)
         places = [node.place for node in graph.nodes[-2:]]
-        if not places or graph.nodes[-1].frame != frame:
-            return  # The node lies in a sub-map that is nowhere yet.
-        if places[-1] != UNKNOWN and (len(places) == 1 or places[0] != places[1]):
+        is_there = bool(places) and graph.nodes[-1].frame == frame  # else in a sub-map, nowhere yet
+        enters = is_there and places[-1] != UNKNOWN and places[:-1] != places[-1:]
+        if enters:
             logger.info("frame %d: entering %s", frame, places[-1])
             self.viewer.log(frame, f"entering {places[-1]}")
+        if self._graph_gate.opens(len(graph.nodes)) or enters:
+            self.viewer.show_graph(frame, graph)
 
     def _show(self, view: View, tracking: Tracking) -> None:
         with self.clock.stage("view"):
@@ -168,8 +172,7 @@ class Pipeline:
                 self.recorder.add_thumbnail(view.frame)
             for event in _events(tracking):
                 self.viewer.log(tracking.index, event)
-            if self._is_map_due(tracking):
-                self._drawn_keyframes, self._bent = len(self.slam.keyframes), False
+            if self._map_gate.opens(len(self.slam.keyframes)):
                 self.viewer.show_map(tracking.index, self._sketch())
         self._done = tracking.index + 1
         self.progress(self._done, len(self.sequence), self._state(tracking))
@@ -190,14 +193,6 @@ class Pipeline:
         if anchor is None or self.slam.is_placed(anchor):
             return tracking
         return replace(tracking, T_world_camera=None)
-
-    def _is_map_due(self, tracking: Tracking) -> bool:
-        """Whether the map has grown enough since it was shown; half as much if loops bent it."""
-        every = max(self.settings.recording.map_every, self._drawn_keyframes // GROWTH_PARTS)
-        self._bent |= bool(tracking.closures)
-        due = self._drawn_keyframes + (every // 2 if self._bent else every)
-        first = tracking.is_keyframe and self._drawn_keyframes == 0
-        return first or len(self.slam.keyframes) >= due
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:

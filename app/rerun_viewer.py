@@ -31,10 +31,11 @@ __all__ = ["RerunViewer", "ViewerSettings"]
 FloatArray = NDArray[np.float64]
 
 _NOTHING = np.empty((0, 3))
-# Frames of the path drawn since the last map: each frame sends them anew.
+# Frames of the path drawn since the last map: each frame that is shown sends them anew.
 _RECENT = 300
-# Frames from one drawing of the path to the next.
-_PATH_EVERY = 4
+# A frame is shown a little early rather than a whole frame late.
+_ALMOST = 0.75
+_TRACKING, _LABEL = "timeline/tracking", "timeline/label"
 
 
 class RerunViewer:
@@ -75,7 +76,8 @@ class RerunViewer:
         )
         # Frames with an image whose label is not known yet.
         self._untold: dict[int, Tracking] = {}
-        self._last_colour = self._last_depth = -np.inf
+        # When the last images were taken that are shown.
+        self._colour_s = self._depth_s = -np.inf
         self._map: tuple[int, MapView] | None = None
 
     def start(self, session: SessionView) -> None:
@@ -93,27 +95,51 @@ class RerunViewer:
         rerun_scene.log_fixed(self._recording, session, self.settings.depth_step)
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
-        """Show a frame with its features and, where it has one in the world, its pose."""
+        """Show a frame with its features and, where it has one in the world, its pose.
+
+        Some time after the one before, if nothing more hangs on it: the way is told of all frames.
+        """
         self._stamps[tracking.index] = tracking.stamp_s
-        self._at(tracking.index)
-        self._show_images(frame, tracking)
-        self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))
-        self._say("timeline/tracking", rerun_scene.state_word(tracking))
-        if tracking.T_world_camera is not None:
-            self._show_pose(Pose(tracking.index, tracking.state, tracking.T_world_camera))
         if tracking.is_keyframe and tracking.anchor is not None:
             self._pictures.keep(tracking.anchor.keyframe, frame)
+        T = tracking.T_world_camera
+        if T is not None:
+            pose = Pose(tracking.index, tracking.state, T)
+            self._poses.append(pose)
+            self._recent.append(pose)
+        word, now = rerun_scene.state_word(tracking), tracking.stamp_s
+        is_last = tracking.index + 1 == self._session.frames
+        matters = is_last or not word == self._said.get(_TRACKING) == TrackingState.OK.value
+        if not matters and now - self._colour_s <= _ALMOST * self.settings.frame_every_s:
+            return
+        self._colour_s = now
+        self._untold[tracking.index] = tracking.without_view()
+        self._at(tracking.index)
+        if matters or now - self._depth_s > _ALMOST * self.settings.depth_every_s:
+            self._depth_s = now
+            self._show_depth(frame)
+        self._show_colour(frame, tracking.pixels[: self.settings.max_keypoints])
+        self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))
+        self._say(_TRACKING, word)
+        if T is not None:
+            self._recording.log(
+                "world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3])
+            )
+            self._draw_recent()
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
         """Show a frame's label, which is known a few frames after the frame.
 
         The status in words is that of frames whose image is shown.
         """
+        tracking = self._untold.pop(frame, None)
+        is_new = self._has_labels and self._said.get(_LABEL) != label
+        if tracking is None and not is_new:
+            return
         self._at(frame)
         if self._has_labels:
             self._recording.log("plots/score", rr.Scalars(score))
-            self._say("timeline/label", label)
-        tracking = self._untold.pop(frame, None)
+            self._say(_LABEL, label)
         if tracking is not None:
             words = f"{label.replace('_', ' ')} · {score:.2f}"
             self._show_status(tracking, words if self._has_labels else "places not labelled")
@@ -178,33 +204,19 @@ class RerunViewer:
             self._said[entity] = state
             self._recording.log(entity, rr.StateChange(state=state))
 
-    def _show_images(self, frame: Frame, tracking: Tracking) -> None:
-        """Show images a stride after the one before, and those that more hangs on."""
-        settings, log = self.settings, self._recording.log
-        is_last = tracking.index + 1 == self._session.frames
-        matters = is_last or tracking.is_keyframe or tracking.state is not TrackingState.OK
-        if matters or tracking.index - self._last_depth >= settings.depth_stride:
-            self._last_depth = tracking.index
-            png = rerun_images.encode_depth(frame, settings.depth_step)
-            log("world/camera/depth/image", rr.EncodedDepthImage.from_fields(blob=png))
-        if not matters and tracking.index - self._last_colour < settings.colour_stride:
-            return
-        self._last_colour = tracking.index
-        self._untold[tracking.index] = tracking.without_view()
-        jpeg = rerun_images.encode_colour(frame, settings.jpeg_quality)
+    def _show_colour(self, frame: Frame, pixels: FloatArray) -> None:
+        """Show a colour image with features (N, 2)."""
+        log = self._recording.log
+        jpeg = rerun_images.encode_colour(frame, self.settings.jpeg_quality)
         log("world/camera/image/colour", rr.EncodedImage.from_fields(blob=jpeg))
-        pixels = tracking.pixels[: settings.max_keypoints]
         usable = rerun_images.has_depth(frame, pixels)
         log(rerun_scene.FEATURES_PLAIN, rr.Points2D.from_fields(positions=pixels[~usable]))
         log(rerun_scene.FEATURES_USABLE, rr.Points2D.from_fields(positions=pixels[usable]))
 
-    def _show_pose(self, pose: Pose) -> None:
-        T = pose.T_world_camera
-        self._poses.append(pose)
-        self._recent.append(pose)
-        self._recording.log("world/camera", rr.Transform3D(translation=T[:3, 3], mat3x3=T[:3, :3]))
-        if pose.frame % _PATH_EVERY == 0:
-            self._draw_recent()
+    def _show_depth(self, frame: Frame) -> None:
+        png = rerun_images.encode_depth(frame, self.settings.depth_step)
+        blob = rr.EncodedDepthImage.from_fields(blob=png)
+        self._recording.log("world/camera/depth/image", blob)
 
     def _draw_recent(self) -> None:
         """Draw the path since the last frame that the last map's path has."""
@@ -255,5 +267,5 @@ def thinned_map(view: MapView, at_most: int) -> MapView:
     count = len(view.points)
     if count <= at_most:
         return view
-    chosen = np.sort(np.random.default_rng(0).choice(count, at_most, replace=False))
+    chosen = np.sort(np.random.default_rng(0).choice(count, at_most, replace=False, shuffle=False))
     return replace(view, points=view.points.chosen(chosen), label_ids=view.label_ids[chosen])

@@ -11,15 +11,17 @@ from datasets.frame import Frame
 from semantics.graph import SemanticGraph
 from slam.tracking import Tracking
 
-# What may wait to be shown. Each frame among it takes a few megabytes.
-_WAITING = 32
+# Calls handed on together: waking the thread for each would take as long as many of them do.
+_TOGETHER = 8
+# Such parcels that may wait. Each frame among them takes a few megabytes.
+_WAITING = 4
 
 
 class ThreadedViewer:
     """Makes another viewer and hands it all that it is told, in order, in a thread of its own.
 
     Where the other viewer falls behind, the run waits. What goes wrong in the thread is raised by
-    the next call, and by `close` at the latest.
+    one of the next calls, and by `close` at the latest.
 
     Parameters
     ----------
@@ -31,6 +33,7 @@ class ThreadedViewer:
     def __init__(self, make: Callable[[], Viewer]) -> None:
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="viewer")
         self._made = self._pool.submit(make)
+        self._parcel: list[Callable[[], None]] = []
         self._waiting: deque[Future[None]] = deque()
 
     def start(self, session: SessionView) -> None:
@@ -59,6 +62,7 @@ class ThreadedViewer:
 
     def close(self) -> None:
         """Wait for all that was handed on, and close the other viewer."""
+        self._hand_on()
         self._waiting.append(self._pool.submit(lambda: self._viewer.close()))
         try:
             while self._waiting:
@@ -71,7 +75,18 @@ class ThreadedViewer:
         """The other viewer, for the thread, which has made it before anything else."""
         return self._made.result()
 
-    def _later(self, work: Callable[[], None]) -> None:
-        while self._waiting and (len(self._waiting) >= _WAITING or self._waiting[0].done()):
-            self._waiting.popleft().result()
-        self._waiting.append(self._pool.submit(work))
+    def _later(self, call: Callable[[], None]) -> None:
+        self._parcel.append(call)
+        if len(self._parcel) == _TOGETHER:
+            while self._waiting and (len(self._waiting) >= _WAITING or self._waiting[0].done()):
+                self._waiting.popleft().result()
+            self._hand_on()
+
+    def _hand_on(self) -> None:
+        parcel, self._parcel = self._parcel, []
+        self._waiting.append(self._pool.submit(_make_all, parcel))
+
+
+def _make_all(calls: list[Callable[[], None]]) -> None:
+    for call in calls:
+        call()
