@@ -179,12 +179,12 @@ def test_everything_shown_is_there(recorded: Recorded) -> None:
 
 def test_images_are_there_with_their_stamps(recorded: Recorded) -> None:
     jpegs = recorded.values("/world/camera/image/colour", "EncodedImage:blob")
-    assert set(jpegs) == set(range(N_FRAMES))  # they are a tenth of a second apart
+    lost_and_found = {LOST, LOST + 1, LOST + 2}
+    assert set(jpegs) == {0, 2, 4, 9, 11} | lost_and_found  # the least above 0.11 s apart
     corners = recorded.values("/world/camera/image/features/with_depth", "Points2D:positions")
     assert set(corners) == set(jpegs)
     depths = recorded.values("/world/camera/depth/image", "EncodedDepthImage:blob")
-    lost_and_found = {LOST, LOST + 1, LOST + 2}
-    assert set(depths) == {0, 2, 4, 9, 11} | lost_and_found  # else two tenths apart
+    assert set(depths) == {0, 4, 11} | lost_and_found  # and above 0.22 s
     images = recorded.rows["/world/camera/image/colour"]
     stamps = {row["frame"]: row["stamp"] for row in images if "frame" in row}
     assert stamps[6].total_seconds() == pytest.approx(100.6)
@@ -206,7 +206,7 @@ def test_what_all_images_have_alike_is_there_once(recorded: Recorded) -> None:
 def test_poses_come_back(recorded: Recorded) -> None:
     translations = recorded.values("/world/camera", "Transform3D:translation")
     rotations = recorded.values("/world/camera", "Transform3D:mat3x3")
-    assert sorted(translations) == [i for i in range(N_FRAMES) if i != LOST]
+    assert sorted(translations) == [0, 2, 4, 6, 7, 9, 11]  # of the frames that are shown
     for i, translation in translations.items():
         np.testing.assert_allclose(translation[0], true_pose(i)[:3, 3], atol=1e-6)
         R = np.reshape(rotations[i][0], (3, 3)).T  # Rerun's matrices are column-major.
@@ -324,18 +324,18 @@ def test_a_label_is_told_of_its_own_frame(recorded: Recorded) -> None:
 def test_poses_in_a_submap_are_not_drawn_in_the_world(tmp_path: Path) -> None:
     viewer = RerunViewer(tmp_path / "apart.rrd")
     viewer.start(SessionView("apart", N_FRAMES, CAMERA, LABELS, None))
-    for i in range(4):
+    for i in range(5):
         tracking = tracking_of(i)
         viewer.show_frame(
-            frame_of(i), replace(tracking, T_world_camera=None) if i > 1 else tracking
+            frame_of(i), replace(tracking, T_world_camera=None) if i > 2 else tracking
         )
         viewer.show_label(i, 1, "kitchen", 0.5)
     viewer.close()
     recorded = Recorded.read(tmp_path / "apart.rrd")
-    assert sorted(recorded.values("/world/camera", "Transform3D:translation")) == [0, 1]
-    assert sorted(recorded.values("/world/trajectory/recent", "LineStrips3D:strips")) == [0, 1]
+    assert sorted(recorded.values("/world/camera", "Transform3D:translation")) == [0, 2]
+    assert sorted(recorded.values("/world/trajectory/recent", "LineStrips3D:strips")) == [0, 2]
     states = recorded.values("/timeline/tracking", "StateChange:state")
-    assert states == {0: ["ok"], 2: ["sub-map"]}
+    assert states == {0: ["ok"], 3: ["sub-map"]}
     assert "**sub-map**" in recorded.values("/status", "TextDocument:text")[3][0]
 
 
