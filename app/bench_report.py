@@ -58,10 +58,17 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("same bytes each time", _same),
 )
 
+_LEGEND = (
+    "frame: features and tracking, what a camera waits for; tenths: of the sequence, as medians; "
+    "stages run beside each other, so that their times do not add up to a frame's"
+)
+
 
 def table(summaries: Sequence[Summary], cost: Mapping[str, float]) -> Table:
     """Return a table with a column for each sequence, with its figures and its stages."""
-    shown = Table("", *(str(s["sequence"]) for s in summaries), box=None, padding=(0, 2, 0, 0))
+    names = (str(s["sequence"]) for s in summaries)
+    shown = Table("", *names, box=None, padding=(0, 2, 0, 0), caption=_LEGEND)
+    shown.caption_justify = "left"
     for title, cell in ROWS:
         shown.add_row(title, *(cell(s) for s in summaries))
     if cost:

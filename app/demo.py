@@ -13,6 +13,7 @@ from app.run_folder import RUN_MARKS, RunFolder, clear_output
 from app.session import Showing, map_sequence
 from app.training import train_model
 from datasets.open import open_sequence
+from semantics.model_io import save_model
 
 
 def run_demo(
@@ -25,13 +26,14 @@ def run_demo(
     """Run the demonstration; return its run folder and metrics.
 
     Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
+    The place model is kept in the run's folder.
     """
     if output is not None:
         clear_output(output, overwrite, RUN_MARKS)
     known = building_settings(seed=2 * settings.seed)
     strange = building_settings(seed=2 * settings.seed + 1)
     lessons = cached(("day", "night"), known, terminal)
-    (sequence,) = cached(("day",), strange, terminal)
+    (strange_floor,) = cached(("day",), strange, terminal)
     with TemporaryDirectory() as scratch:
         model = train_model(lessons, Path(scratch) / "model", settings, False, terminal)
     terminal.say(
@@ -39,4 +41,7 @@ def run_demo(
         f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
         dim=True,
     )
-    return map_sequence(open_sequence(sequence), settings, model, output, False, showing, terminal)
+    sequence = open_sequence(strange_floor)
+    folder, metrics = map_sequence(sequence, settings, model, output, False, showing, terminal)
+    save_model(folder.model, model)
+    return folder, metrics

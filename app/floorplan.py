@@ -125,7 +125,7 @@ def _draw_doorway(axes: Axes, graph: SemanticGraph, door: Doorway) -> None:
 
 
 def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:
-    """Write each place's name and area into it, as large as fits."""
+    """Write each place's name and area into it, as large as fits, below the way walked."""
     ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
     for extent in graph.extents:
         name = extent.name.replace("_", " ")
@@ -134,7 +134,7 @@ def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> No
         x, y = extent.centre_map
         axes.text(
             x, y, f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
-            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=6,
+            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=3.5,
         )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from datasets.trajectory import Trajectory
 from semantics.floor import places_at
 from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel
+from semantics.labels import UNKNOWN
 from semantics.parts import Vote
 from slam.map import PointMap
 from slam.pose_graph import Link
@@ -71,6 +72,21 @@ class Journal:
                 )  # fmt: skip
             self.labels[i] = replace(label, tracking=tracking)
         return [_trajectory_of(ways) for ways in apart.values()]
+
+    def settle_labels(self, graph: SemanticGraph) -> None:
+        """Give frames the label of the place that they were taken in, where its floor is known.
+
+        In a doorway an image shows the next room while the camera is still in this one.
+        """
+        way = _way_of(self.labels, self.slam.placed_poses)
+        centres = np.array([T[:3, 3] for _, T in way]).reshape(-1, 3)
+        for (tracking, _), place in zip(way, places_at(graph, centres), strict=True):
+            label = self.labels[tracking.index]
+            extent = graph.extents[place] if place >= 0 else None
+            if extent is not None and extent.label not in (UNKNOWN, label.label):
+                self.labels[tracking.index] = replace(
+                    label, label=extent.label, label_id=extent.label_id, score=extent.score
+                )
 
     def trajectory(self) -> Trajectory:
         """Return the poses of all frames that have a place in the world."""

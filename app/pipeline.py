@@ -224,7 +224,9 @@ class Pipeline:
                 self._write_way(trajectory)
             surveyed = self._survey()
             graph = self._final_graph(surveyed)
+            self.journal.settle_labels(graph)
             with self.clock.stage("write graph"):
+                self._write_frames()
                 self._write_graph(graph, surveyed)
             points = fused.result()
             view = self.journal.map_view(points, graph)
@@ -240,11 +242,16 @@ class Pipeline:
 
     def _settle(self) -> None:
         """Write down where frames turned out to be."""
-        apart, labels = self.journal.settle(), self.journal.labels
+        apart = self.journal.settle()
         self.topology.keep(self.slam.placed_poses)
-        self.recorder.rewrite_frames(labels, self.sequence.stamps_s[len(labels) :])
+        self._write_frames()
         for number, way in enumerate(apart, 1):
             self.recorder.write_submap(number, way)
+
+    def _write_frames(self) -> None:
+        """Write what is known now of each frame, and which the run did not get to."""
+        labels = self.journal.labels
+        self.recorder.rewrite_frames(labels, self.sequence.stamps_s[len(labels) :])
 
     def _fuse(self) -> PointMap:
         with self.clock.stage("map"):

@@ -95,8 +95,8 @@ def label_content(
     words = ""
     if metrics.get("place_accuracy_per_frame") is not None:
         words = (
-            f"{metrics['place_accuracy_per_frame']:.1%} of frames right on the way, "
-            f"{metrics['place_accuracy']:.1%} of nodes once the rooms were known; "
+            f"{metrics['place_accuracy_per_frame']:.1%} of frames and "
+            f"{metrics['place_accuracy']:.1%} of nodes right once the rooms were known; "
             f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} rooms told apart."
         )
     names = [name for name in graph.labels.names if name in {*labels, *(true or ())}]

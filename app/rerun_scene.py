@@ -64,7 +64,7 @@ def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: i
         log(entity, rr.Points2D.from_fields(colors=colour, radii=rr.Radius.ui_points(2.0)))
     if session.truth is not None:
         truth = rr.LineStrips3D(
-            [session.truth], colors=TRUTH_COLOUR, radii=rr.Radius.ui_points(0.7)
+            [session.truth], colors=TRUTH_COLOUR, radii=rr.Radius.ui_points(1.0)
         )
         log("world/trajectory/truth", truth)
     log("plots/inliers", rr.SeriesLines(names="inliers", colors=USABLE_COLOUR, widths=1.5))

@@ -11,8 +11,8 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     frame_every_s: float = Field(
-        0.15, ge=0, description="a frame is shown about every so many seconds of the sequence; lost "
-        "and found ones and the last one always",
+        0.15, ge=0, description="a frame is shown about every so many seconds of the sequence; "
+        "lost and found ones and the last one always",
     )  # fmt: skip
     depth_every_s: float = Field(0.3, ge=0, description="the depth of a frame, likewise")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")

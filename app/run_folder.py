@@ -127,6 +127,11 @@ class RunFolder:
         """The Rerun recording."""
         return self.root / "recording.rrd"
 
+    @property
+    def model(self) -> Path:
+        """The place model that a demonstration learned for its run."""
+        return self.root / "model"
+
     def read_metrics(self) -> dict[str, Any]:
         """Return the run's figures."""
         try:

@@ -40,3 +40,4 @@ def demo(
     if report:
         terminal.say(f"Report: {folder.report}")
     terminal.say(f"Look at it with: roomgraph view {folder.root}")
+    terminal.say(f"Label your own with its places: roomgraph run SEQUENCE --model {folder.model}")

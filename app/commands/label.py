@@ -71,9 +71,9 @@ def label(
         return _correct(model, data, changes, output, overwrite, terminal)
     if output is not None:
         refuse_existing(output, overwrite)
-    vote = load_settings(config).semantics.labeller
+    vote, places = load_settings(config).semantics.labeller, load_model(model)
     with terminal.progress("Labelling") as advance:
-        items = label_items(load_model(model), data, advance, vote, dataset, camera)
+        items = label_items(places, data, advance, vote, dataset, camera)
     if output is not None:
         write_labels_csv(output, items)
         terminal.say(f"{len(items)} labels written to {output}")

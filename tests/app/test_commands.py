@@ -13,6 +13,7 @@ import pytest
 from app.run_folder import RunFolder
 from datasets.open import open_sequence
 from datasets.trajectory import read_tum
+from semantics.floor import places_at
 from semantics.graph_io import read_graph_json
 from tests.app.command import roomgraph
 from tests.check_run import problems
@@ -23,8 +24,21 @@ def test_a_run_is_whole_and_accurate(mapped):
     assert problems(run, None, max_ate=0.03) == []
     metrics = RunFolder(run).read_metrics()
     assert metrics["frames_tracked"] == metrics["frames"]
-    assert metrics["place_accuracy_per_frame"] > 0.8
+    assert metrics["place_accuracy_per_frame"] > 0.9
     assert not list(run.glob(".*"))
+
+
+def test_frames_bear_the_label_of_the_room_that_they_were_taken_in(mapped):
+    folder = RunFolder(mapped[1])
+    graph, trajectory = read_graph_json(folder.graph_json), folder.read_trajectory()
+    labels = {row["timestamp"]: row["label"] for row in folder.read_frames()}
+    places = places_at(graph, trajectory.positions)
+    inside = [
+        (t, place) for t, place in zip(trajectory.stamps_s, places, strict=True) if place >= 0
+    ]
+    assert len(inside) > 0.9 * len(labels)
+    for stamp, place in inside:
+        assert labels[f"{stamp:.6f}"] == graph.extents[place].label
 
 
 def test_the_same_run_twice_gives_the_same_files(mapped, rendered_walk, tmp_path, monkeypatch):
