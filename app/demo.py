@@ -26,7 +26,7 @@ def run_demo(
     """Run the demonstration; return its run folder and metrics.
 
     Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
-    The place model is kept in the run's folder.
+    The place model is kept in the run's folder once the run has ended.
     """
     if output is not None:
         clear_output(output, overwrite, RUN_MARKS)

@@ -35,15 +35,19 @@ class Journal:
     ----------
     labels : list of FrameLabel
         By frame, without their features.
+    on_the_way : list of str
+        By frame, the labels before the rooms were known.
     """
 
     def __init__(self, slam: Slam) -> None:
         self.slam = slam
         self.labels: list[FrameLabel] = []
+        self.on_the_way: list[str] = []
 
     def add(self, label: FrameLabel) -> None:
         """Keep the next frame's label."""
         self.labels.append(replace(label, tracking=label.tracking.without_view()))
+        self.on_the_way.append(label.label)
 
     def settle(self) -> list[Trajectory]:
         """Say at last of each frame whether its place in the world became known.
@@ -76,7 +80,8 @@ class Journal:
     def settle_labels(self, graph: SemanticGraph) -> None:
         """Give frames the label of the place that they were taken in, where its floor is known.
 
-        In a doorway an image shows the next room while the camera is still in this one.
+        In a doorway an image shows the next room while the camera is still in this one. A frame
+        whose label changes gets the place's score; what its image spoke for stays noted beside.
         """
         way = _way_of(self.labels, self.slam.placed_poses)
         centres = np.array([T[:3, 3] for _, T in way]).reshape(-1, 3)

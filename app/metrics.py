@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from app.clock import StageClock
+from app.journal import Journal
 from datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_plan
 from datasets.places import PlaceTruth
 from datasets.sequence import Sequence
 from datasets.trajectory import Trajectory
 from semantics.evaluation import evaluate_frames, evaluate_instances, evaluate_nodes
 from semantics.graph import SemanticGraph
-from semantics.labeller import FrameLabel
 from semantics.topology_evaluation import evaluate_doorways, evaluate_extents, largest_error
 from slam.errors import SlamError
 from slam.evaluation import compare
@@ -30,7 +30,7 @@ SCHEMA = "roomgraph/metrics/1"
 def run_metrics(
     sequence: Sequence,
     slam: Slam,
-    labels: list[FrameLabel],
+    journal: Journal,
     trajectory: Trajectory,
     graph: SemanticGraph,
     points: PointMap,
@@ -38,6 +38,7 @@ def run_metrics(
     warnings: Iterable[str] = (),
 ) -> dict[str, Any]:
     """Return what `metrics.json` holds."""
+    labels = journal.labels
     states = Counter(label.tracking.state for label in labels)
     tracked = sum(count for state, count in states.items() if state.has_pose)
     seconds = clock.elapsed_s
@@ -67,8 +68,12 @@ def run_metrics(
     if sequence.ground_truth is not None:
         metrics |= trajectory_metrics(trajectory, sequence.ground_truth)
     if sequence.places is not None and len(graph.labels) > 1:
-        frames = [(label.tracking.stamp_s, label.label) for label in labels]
+        stamps = [label.tracking.stamp_s for label in labels]
+        frames = list(zip(stamps, (label.label for label in labels), strict=True))
         metrics |= place_metrics(graph, frames, sequence.places)
+        before = list(zip(stamps, journal.on_the_way, strict=True))
+        on_the_way = evaluate_frames(before, sequence.places).overall
+        metrics["place_accuracy_per_frame_on_the_way"] = _rounded(on_the_way)
         plan = sequence.root / FILE_NAME
         if plan.is_file():
             metrics |= topology_metrics(graph, read_floor_plan(plan), metrics["rooms_matched"])

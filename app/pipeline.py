@@ -15,9 +15,9 @@ from threadpoolctl import threadpool_limits
 
 from app.clock import StageClock
 from app.config import AppSettings
-from app.growth import GrowthGate
 from app.journal import Journal
 from app.metrics import run_metrics
+from app.pacing import GrowthGate
 from app.prefetch import prefetch
 from app.recorder import Recorder
 from app.viewer import MapView, SessionView, Viewer
@@ -43,7 +43,8 @@ Progress = Callable[[int, int, str], None]
 
 # Frames that labelling stays behind tracking.
 LABEL_LAG = 8
-# A large map or graph is drawn again once it has grown by one part in so many.
+# A large map or graph is drawn again once it has grown by one part in so many, even if a loop has
+# bent it before: all drawings together cost as much as so many of the last.
 GROWTH_PARTS = 16
 
 
@@ -207,7 +208,7 @@ class Pipeline:
         self._settle()
         trajectory, graph, points = self._products()
         metrics = run_metrics(
-            self.sequence, self.slam, self.journal.labels, trajectory, graph, points, self.clock,
+            self.sequence, self.slam, self.journal, trajectory, graph, points, self.clock,
             self.warnings,
         )  # fmt: skip
         self.recorder.write_metrics(metrics)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,14 +18,15 @@ from semantics.graph_io import read_graph_json
 from semantics.model import PlaceModel
 from semantics.trials import Trial
 
-FINISHED = "nodes, finished run"
+FINISHED, FINISHED_FRAMES = "nodes, finished run", "frames, finished run"
 
 
 @dataclass(frozen=True, slots=True)
 class FinishedRun:
-    """The labels of a finished run's nodes, its true rooms, and how many were told apart."""
+    """The labels of a finished run's nodes and frames, its rooms, and how many were told apart."""
 
-    trial: Trial
+    nodes: Trial
+    frames: Trial
     rooms: int
     told_apart: int
 
@@ -47,10 +49,16 @@ def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -
             sequence, settings, model, Path(scratch) / "run", False,
             Showing(live=False, save=False, report=False), terminal,
         )  # fmt: skip
-        graph = read_graph_json(folder.graph_json)
-    pairs = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
+        graph, rows = read_graph_json(folder.graph_json), folder.read_frames()
+    nodes = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
+    frames = [(places.at(float(row["timestamp"])), row["label"]) for row in rows]
+    return FinishedRun(
+        _trial(FINISHED, nodes), _trial(FINISHED_FRAMES, frames),
+        len(metrics["rooms"]), len(metrics["rooms_recovered"]),
+    )  # fmt: skip
+
+
+def _trial(row: str, pairs: Sequence[tuple[tuple[str, str] | None, str]]) -> Trial:
+    """Return a trial of what is known to lie in a room: its true label and instance, its label."""
     known = [(truth[0], label) for truth, label in pairs if truth is not None]
-    trial = Trial(
-        FINISHED, np.array([truth for truth, _ in known]), np.array([label for _, label in known])
-    )
-    return FinishedRun(trial, len(metrics["rooms"]), len(metrics["rooms_recovered"]))
+    return Trial(row, np.array([truth for truth, _ in known]), np.array([x for _, x in known]))

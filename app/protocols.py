@@ -158,7 +158,7 @@ def _route(m: Material) -> ProtocolReport:
             runs.append(finished_run(model, Path(walk.examples[0].session), m.seed, m.terminal))
         except RoomgraphError as error:
             m.terminal.warn(f"not mapped: {error}")
-    found += [run.trial for run in runs]
+    found += [trial for run in runs for trial in (run.nodes, run.frames)]
     notes = [
         "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
         "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
@@ -175,8 +175,8 @@ def _route(m: Material) -> ProtocolReport:
         }
         notes.append(
             "Finished run: the graph that `roomgraph run` writes of the route, mapped by the low "
-            "layer; only keyframes are looked at, and the nodes of a room share the label that "
-            f"its frames voted for. Rooms told apart: {figures['rooms_told_apart']} of "
+            "layer; only keyframes are looked at, and nodes and frames in a room share the label "
+            f"that its frames voted for. Rooms told apart: {figures['rooms_told_apart']} of "
             f"{figures['rooms']}."
         )
     headline = (FINISHED,) if runs else ("nodes, vote",)

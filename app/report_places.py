@@ -93,10 +93,11 @@ def label_content(
         stamps, labels, np.array([float(row["score"]) for row in rows]), true, graph.labels
     )
     words = ""
-    if metrics.get("place_accuracy_per_frame") is not None:
+    if metrics.get("place_accuracy_per_frame_on_the_way") is not None:
         words = (
+            f"{metrics['place_accuracy_per_frame_on_the_way']:.1%} of frames right on the way, "
             f"{metrics['place_accuracy_per_frame']:.1%} of frames and "
-            f"{metrics['place_accuracy']:.1%} of nodes right once the rooms were known; "
+            f"{metrics['place_accuracy']:.1%} of nodes at the end; "
             f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} rooms told apart."
         )
     names = [name for name in graph.labels.names if name in {*labels, *(true or ())}]

@@ -11,7 +11,7 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     frame_every_s: float = Field(
-        0.15, ge=0, description="a frame is shown about every so many seconds of the sequence; "
+        0.15, ge=0, description="a frame is shown every so many seconds of the sequence; "
         "lost and found ones and the last one always",
     )  # fmt: skip
     depth_every_s: float = Field(0.3, ge=0, description="the depth of a frame, likewise")

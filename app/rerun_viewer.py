@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from app import rerun_images, rerun_scene
 from app.blueprint import build_blueprint
 from app.errors import AppError
+from app.pacing import TimeGate
 from app.rerun_framing import below_ceiling, frame_scene, level_axes
 from app.rerun_graph import log_graph
 from app.rerun_keyframes import KeyframePictures
@@ -32,9 +33,8 @@ FloatArray = NDArray[np.float64]
 
 _NOTHING = np.empty((0, 3))
 # Frames of the path drawn since the last map: each frame that is shown sends them anew.
-_RECENT = 300
-# A frame is shown a little early rather than a whole frame late.
-_ALMOST = 0.75
+# A map may be late by many frames: it comes with keyframes, and its path with labels.
+_RECENT = 1000
 _TRACKING, _LABEL = "timeline/tracking", "timeline/label"
 
 
@@ -76,8 +76,8 @@ class RerunViewer:
         )
         # Frames with an image whose label is not known yet.
         self._untold: dict[int, Tracking] = {}
-        # When the last images were taken that are shown.
-        self._colour_s = self._depth_s = -np.inf
+        self._frame_gate = TimeGate(self.settings.frame_every_s)
+        self._depth_gate = TimeGate(self.settings.depth_every_s)
         self._map: tuple[int, MapView] | None = None
 
     def start(self, session: SessionView) -> None:
@@ -97,7 +97,8 @@ class RerunViewer:
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
         """Show a frame with its features and, where it has one in the world, its pose.
 
-        Some time after the one before, if nothing more hangs on it: the way is told of all frames.
+        Frames too soon after one that was shown are left out, but for lost and found ones and the
+        last; their poses are on the path all the same.
         """
         self._stamps[tracking.index] = tracking.stamp_s
         if tracking.is_keyframe and tracking.anchor is not None:
@@ -107,16 +108,14 @@ class RerunViewer:
             pose = Pose(tracking.index, tracking.state, T)
             self._poses.append(pose)
             self._recent.append(pose)
-        word, now = rerun_scene.state_word(tracking), tracking.stamp_s
+        word = rerun_scene.state_word(tracking)
         is_last = tracking.index + 1 == self._session.frames
         matters = is_last or not word == self._said.get(_TRACKING) == TrackingState.OK.value
-        if not matters and now - self._colour_s <= _ALMOST * self.settings.frame_every_s:
+        if not self._frame_gate.opens(tracking.stamp_s, matters):
             return
-        self._colour_s = now
         self._untold[tracking.index] = tracking.without_view()
         self._at(tracking.index)
-        if matters or now - self._depth_s > _ALMOST * self.settings.depth_every_s:
-            self._depth_s = now
+        if self._depth_gate.opens(tracking.stamp_s, matters):
             self._show_depth(frame)
         self._show_colour(frame, tracking.pixels[: self.settings.max_keypoints])
         self._recording.log("plots/inliers", rr.Scalars(tracking.inliers))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack
 
 from app.viewer import MapView, SessionView, Viewer
 from datasets.frame import Frame
@@ -77,10 +78,10 @@ class ThreadedViewer:
 
     def _later(self, call: Callable[[], None]) -> None:
         self._parcel.append(call)
-        if len(self._parcel) == _TOGETHER:
-            while self._waiting and (len(self._waiting) >= _WAITING or self._waiting[0].done()):
-                self._waiting.popleft().result()
+        if len(self._parcel) >= _TOGETHER:
             self._hand_on()
+            while self._waiting and (len(self._waiting) > _WAITING or self._waiting[0].done()):
+                self._waiting.popleft().result()
 
     def _hand_on(self) -> None:
         parcel, self._parcel = self._parcel, []
@@ -88,5 +89,7 @@ class ThreadedViewer:
 
 
 def _make_all(calls: list[Callable[[], None]]) -> None:
-    for call in calls:
-        call()
+    """Make calls in order; one that fails does not keep back those after it."""
+    with ExitStack() as stack:
+        for call in reversed(calls):
+            stack.callback(call)

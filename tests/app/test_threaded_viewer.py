@@ -104,6 +104,20 @@ def test_what_goes_wrong_is_raised_and_the_viewer_closed_all_the_same():
     assert witness.heard[-1] == ("close",)
 
 
+def test_after_a_failure_the_rest_is_shown_all_the_same():
+    witness = Witness(fails_at=("log", 3, "x"))
+    viewer = ThreadedViewer(lambda: witness)
+    raised = 0
+    for i in range(200):
+        try:
+            viewer.log(i, "x")
+        except AppError:
+            raised += 1
+    viewer.close()
+    assert raised == 1
+    assert witness.heard == [*(("log", i, "x") for i in range(200)), ("close",)]
+
+
 def test_a_failure_at_the_very_end_is_raised_by_close():
     viewer = ThreadedViewer(lambda: Witness(fails_at=("log", 0, "x")))
     viewer.start("session")
