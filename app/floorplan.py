@@ -14,15 +14,18 @@ from numpy.typing import NDArray
 from app.floor_lines import doorway_ends
 from datasets import poses
 from datasets.files import replacing
-from semantics.graph import Doorway, SemanticGraph
+from semantics.graph import Doorway, Extent, SemanticGraph
 from slam.occupancy import FREE, OCCUPIED, OccupancyGrid
 
 FloatArray = NDArray[np.float64]
 # For a page as wide as a phone: a figure of this width with this type is legible on one.
 WIDTH_INCHES = 5.0
 _LARGE, _SMALL = 9.0, 5.0
-# Of a bold letter's width, in heights, with some room on both sides of a name.
-_EM = 0.8
+# Width of a bold letter, with and without some room on both sides of a name, and height of two
+# lines; in heights of a letter.
+_EM, _TIGHT, _TWO_LINES = 0.8, 0.7, 2.8
+# Names are tried so far apart, and need to be no further than this from the way.
+_SPOT_M, _CLEAR_M = 0.1, 0.15
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
 # What is occupied this near to a room's outline is its wall, further in it is furniture.
@@ -56,11 +59,12 @@ def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: Float
     path = poses.transform(grid.T_map_world, path_world)
     axes.plot(path[:, 0], path[:, 1], color=_INK, lw=0.7, alpha=0.55, zorder=4)
     if len(path):
+        axes.plot(*path[-1, :2], marker="s", ms=5, mfc=_INK, mec="white", mew=0.8, zorder=6)
         axes.plot(*path[0, :2], marker="o", ms=6, mfc="white", mec=_INK, mew=1.2, zorder=7)
     nodes = poses.transform(grid.T_map_world, graph.positions)
     colours = [_colour(graph, node.label_id) for node in graph.nodes]
     axes.scatter(nodes[:, 0], nodes[:, 1], s=13, c=colours or None, ec="white", lw=0.6, zorder=5)
-    _name_rooms(axes, graph, WIDTH_INCHES * 72 / float(size[0]))
+    _name_rooms(axes, graph, path[:, :2], WIDTH_INCHES * 72 / float(size[0]))
     _draw_scale(axes, window, float(size[0]))
     return figure
 
@@ -124,18 +128,49 @@ def _draw_doorway(axes: Axes, graph: SemanticGraph, door: Doorway) -> None:
     axes.plot(*ends.T, color="#b4572a", lw=1.6, solid_capstyle="butt", zorder=3)
 
 
-def _name_rooms(axes: Axes, graph: SemanticGraph, points_per_metre: float) -> None:
-    """Write each place's name and area into it, as large as fits, below the way walked."""
+def _name_rooms(
+    axes: Axes, graph: SemanticGraph, path_map: FloatArray, points_per_metre: float
+) -> None:
+    """Write each place's name and area into it, as large as fits, clear of the way if it can be."""
     ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
     for extent in graph.extents:
         name = extent.name.replace("_", " ")
+        area = f"{extent.area_m2:.1f} m²"
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
         size = float(np.clip(width / (_EM * max(len(name), 6)), _SMALL, _LARGE))
-        x, y = extent.centre_map
+        box = size / points_per_metre * np.array([_TIGHT * max(len(name), len(area)), _TWO_LINES])
+        x, y = _clear_spot(extent, path_map, box / 2)
         axes.text(
-            x, y, f"{name}\n{extent.area_m2:.1f} m²", ha="center", va="center", fontsize=size,
+            x, y, f"{name}\n{area}", ha="center", va="center", fontsize=size,
             color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=3.5,
         )  # fmt: skip
+
+
+def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> FloatArray:
+    """Return where in a place something lies clear of a path (N, 2), near the place's middle.
+
+    It is twice `half` (2,) wide and high, metres. In the middle if it fits nowhere.
+    """
+    low, high = extent.polygon_map.min(axis=0) + half, extent.polygon_map.max(axis=0) - half
+    if (high <= low).any():
+        return extent.centre_map
+    x, y = (
+        np.linspace(a, b, max(2, int((b - a) / _SPOT_M))) for a, b in zip(low, high, strict=True)
+    )
+    spots = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    corners = spots[:, None] + half * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
+    outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
+    fits = outline.contains_points(corners.reshape(-1, 2)).reshape(-1, 4).all(axis=1)
+    if not fits.any():
+        return extent.centre_map
+    spots = spots[fits]
+    near = (
+        np.abs(path_map - extent.centre_map).max(axis=1) < np.ptp(extent.polygon_map, axis=0).max()
+    )
+    gaps = np.maximum(np.abs(spots[:, None] - path_map[near]) - half, 0).max(axis=2)
+    clear = np.minimum(gaps.min(axis=1, initial=_CLEAR_M), _CLEAR_M)
+    off = np.linalg.norm(spots - extent.centre_map, axis=1)
+    return np.asarray(spots[np.lexsort((off, -clear))[0]])
 
 
 def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
@@ -145,7 +180,7 @@ def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
     x, y = window[0, 0] + 0.02 * width_m, window[1, 0] - 0.045 * width_m
     axes.plot([x, x + length], [y, y], color=_INK, lw=2.5, solid_capstyle="butt")
     axes.text(x + length + 0.012 * width_m, y, f"{length:g} m", va="center", fontsize=9, color=_INK)
-    entries = [("o", "start"), ("—", "way walked"), ("•", "graph node")]
+    entries = [("o", "start"), ("▪", "end"), ("—", "way walked"), ("•", "graph node")]
     text = "   ".join(f"{mark} {word}" for mark, word in entries)
     axes.text(
         window[0, 1] - 0.02 * width_m, y, text, va="center", ha="right", fontsize=7.0, color=_INK

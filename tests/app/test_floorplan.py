@@ -1,0 +1,47 @@
+"""The plan of a floor: names stand clear of the way walked where there is room for that."""
+
+import numpy as np
+import pytest
+
+from app.floorplan import draw_floor_plan
+from semantics.graph import Extent, GraphNode, SemanticGraph
+from semantics.labels import LabelSpace
+from slam.occupancy import OccupancyGrid
+
+LABELS = LabelSpace.of(["office"])
+
+
+def plan(outline, path_map):
+    outline = np.array(outline, dtype=float)
+    middle = outline.mean(axis=0)
+    extent = Extent("office1", "office", 1, 0.9, outline, 16.0, middle)
+    node = GraphNode(0, 0, 0.0, np.array(path_map[0]), "office", 1, "office1", 0.9, np.empty(0))
+    graph = SemanticGraph(LABELS, (node,), (), (extent,), (), np.eye(4))
+    grid = OccupancyGrid(np.zeros((100, 100), np.int8), 0.05, np.zeros(2), np.eye(4))
+    figure = draw_floor_plan(graph, grid, np.array(path_map))
+    figure.canvas.draw()
+    (axes,) = figure.axes
+    (name,) = (text for text in axes.texts if text.get_text().startswith("office1"))
+    box = name.get_window_extent().transformed(axes.transData.inverted())
+    return name.get_position(), box
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_name_stands_clear_of_the_way_near_the_middle(turned):
+    across = np.column_stack([np.linspace(0, 4, 200), np.full(200, 2.0), np.full(200, 1.5)])
+    way = across[:, [1, 0, 2]] if turned else across
+    (x, y), box = plan([(0, 0), (4, 0), (4, 4), (0, 4)], way)
+    crossed = (box.x0 < way[:, 0]) & (way[:, 0] < box.x1)
+    crossed &= (box.y0 < way[:, 1]) & (way[:, 1] < box.y1)
+    assert not crossed.any()
+    assert box.x0 > 0 and box.x1 < 4 and box.y0 > 0 and box.y1 < 4
+    assert (y if turned else x) == pytest.approx(2.0, abs=0.1)
+
+
+def test_without_room_for_that_it_stands_in_the_middle():
+    back_and_forth = [(x, y, 1.5) for x in np.linspace(0, 4, 40) for y in np.linspace(0, 4, 40)]
+    (x, y), _ = plan([(0, 0), (4, 0), (4, 4), (0, 4)], back_and_forth)
+    assert (x, y) == pytest.approx((2.0, 2.0), abs=0.1)
+    narrow = [(x, 0.2, 1.5) for x in np.linspace(0, 4, 40)]
+    (x, y), _ = plan([(0, 0), (4, 0), (4, 0.4), (0, 0.4)], narrow)
+    assert (x, y) == pytest.approx((2.0, 0.2), abs=0.1)
