@@ -32,6 +32,9 @@ class MapSettings(Settings):
     sketch_voxels: float = Field(
         2.5, ge=1, le=50, description="size of a voxel of the map on the way, in those of the map"
     )
+    sketch_every: int = Field(
+        2, ge=1, le=16, description="every n-th keyframe is sketched: those next to it see the same"
+    )
     sketch_step: int = Field(2, ge=1, le=16, description="every n-th mapped pixel is sketched")
     sketch_slack: float = Field(
         0.5, ge=0, le=10, description="a keyframe may move by so many sketch voxels before it is "

@@ -195,8 +195,11 @@ class Slam:
         It may be called later and in another thread, but one at a time and in the order in which
         they were asked for.
         """
-        placed = {k: v for k, v in self.keyframes.items() if k in self._backend.placed}
-        return partial(self._live_map.update, placed, self.placed_poses)
+        every, T_world_keyframe = self.settings.map.sketch_every, self.placed_poses
+        chosen = {
+            k: v for k, v in self.keyframes.items() if k in T_world_keyframe and k % every == 0
+        }
+        return partial(self._live_map.update, chosen, T_world_keyframe)
 
     def _begin(self, view: View) -> Tracking:
         """Start the map with the first frame that shows anything in depth."""
