@@ -24,8 +24,9 @@ _LARGE, _SMALL = 9.0, 5.0
 # Width of a bold letter, with and without some room on both sides of a name, and height of two
 # lines; in heights of a letter.
 _EM, _TIGHT, _TWO_LINES = 0.8, 0.7, 2.8
-# Names are tried so far apart, and need to be no further than this from the way.
-_SPOT_M, _CLEAR_M = 0.1, 0.15
+# Names are tried at least so far apart, need to be no further than this from the way, and are tried
+# at so many spots across a room at most.
+_SPOT_M, _CLEAR_M, _MOST_SPOTS = 0.1, 0.15, 20
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
 # What is occupied this near to a room's outline is its wall, further in it is furniture.
@@ -154,9 +155,8 @@ def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> Float
     low, high = extent.polygon_map.min(axis=0) + half, extent.polygon_map.max(axis=0) - half
     if (high <= low).any():
         return extent.centre_map
-    x, y = (
-        np.linspace(a, b, max(2, int((b - a) / _SPOT_M))) for a, b in zip(low, high, strict=True)
-    )
+    counts = np.clip((high - low) / _SPOT_M, 2, _MOST_SPOTS).astype(int)
+    x, y = (np.linspace(*span) for span in zip(low, high, counts, strict=True))
     spots = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     corners = spots[:, None] + half * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
     outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
@@ -164,10 +164,10 @@ def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> Float
     if not fits.any():
         return extent.centre_map
     spots = spots[fits]
-    near = (
-        np.abs(path_map - extent.centre_map).max(axis=1) < np.ptp(extent.polygon_map, axis=0).max()
-    )
-    gaps = np.maximum(np.abs(spots[:, None] - path_map[near]) - half, 0).max(axis=2)
+    # Of a long way one spot each is enough, or it would take as much memory as it is long.
+    way = np.unique(np.rint(path_map / _SPOT_M), axis=0) * _SPOT_M
+    way = way[np.all((way > low - 2 * half) & (way < high + 2 * half), axis=1)]
+    gaps = np.maximum(np.abs(spots[:, None] - way) - half, 0).max(axis=2)
     clear = np.minimum(gaps.min(axis=1, initial=_CLEAR_M), _CLEAR_M)
     off = np.linalg.norm(spots - extent.centre_map, axis=1)
     return np.asarray(spots[np.lexsort((off, -clear))[0]])

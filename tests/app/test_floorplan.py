@@ -1,5 +1,7 @@
 """The plan of a floor: names stand clear of the way walked where there is room for that."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -45,3 +47,12 @@ def test_without_room_for_that_it_stands_in_the_middle():
     narrow = [(x, 0.2, 1.5) for x in np.linspace(0, 4, 40)]
     (x, y), _ = plan([(0, 0), (4, 0), (4, 0.4), (0, 0.4)], narrow)
     assert (x, y) == pytest.approx((2.0, 0.2), abs=0.1)
+
+
+def test_a_long_way_through_a_large_hall_takes_little_memory(rng):
+    way = np.column_stack([rng.uniform(0, 40, (20_000, 2)), np.full(20_000, 1.5)])
+    tracemalloc.start()
+    plan([(0, 0), (40, 0), (40, 40), (0, 40)], way)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 500e6
