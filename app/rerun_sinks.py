@@ -10,6 +10,7 @@ import sys
 import time
 from pathlib import Path
 
+import pyarrow.compute  # noqa: F401  # Rerun's first message would load it, while the run waits
 import rerun as rr
 import rerun.blueprint as rrb
 
