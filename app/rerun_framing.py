@@ -29,7 +29,7 @@ class Axes:
     Attributes
     ----------
     right, forward : (3,) float64
-        Horizontal; as the first camera saw them.
+        Horizontal; as the first camera saw them, or as they are on the floor plan.
     up : (3,) float64
         Against gravity, as far as the camera's motion tells.
     """
@@ -37,6 +37,11 @@ class Axes:
     right: FloatArray
     forward: FloatArray
     up: FloatArray
+
+    @classmethod
+    def of_map(cls, T_map_world: FloatArray) -> Axes:
+        """Return the axes of the map frame, in which the floor plan is drawn."""
+        return cls(*T_map_world[:3, :3])
 
     def on_floor(self, points_world: FloatArray) -> FloatArray:
         """Return points (N, 3) as seen on a floor plan (N, 2): right and forward, metres."""
@@ -91,7 +96,7 @@ def frame_scene(points_world: FloatArray, path: FloatArray, axes: Axes) -> Frami
     """Return the nearest eye that sees a path (F, 3) and, but for stray ones, points (N, 3).
 
     One of both may be empty; around a path without points, room is left for the rooms. The eye
-    looks down from behind the first camera. From an eye at c, a point p is in sight if
+    looks down and forward. From an eye at c, a point p is in sight if
     ``|p_x - c_x| <= t_x (p_z - c_z)``, and the same for y: the farthest right and the farthest left
     point give c_x and a bound of c_z.
     """

@@ -144,8 +144,8 @@ def log_pose_graph(recording: rr.RecordingStream, view: MapView) -> None:
         view.T_world_keyframe[:, :3, 3], colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)
     )
     log("world/keyframes", keyframes)
-    log("world/pose_graph/links", _lines(view.links, LINK_COLOUR, 0.6))
-    log("world/pose_graph/loops", _lines(view.loops, LOOP_COLOUR, 1.5))
+    log("world/pose_graph/links", _lines(view.links, LINK_COLOUR, 0.4))
+    log("world/pose_graph/loops", _lines(view.loops, LOOP_COLOUR, 0.6))
 
 
 def _lines(ends: FloatArray, colour: Colour, radius: float) -> rr.LineStrips3D:

@@ -16,7 +16,7 @@ from app import rerun_images, rerun_scene
 from app.blueprint import build_blueprint
 from app.errors import AppError
 from app.pacing import TimeGate
-from app.rerun_framing import below_ceiling, frame_scene, level_axes
+from app.rerun_framing import Axes, below_ceiling, frame_scene, level_axes
 from app.rerun_graph import log_graph
 from app.rerun_keyframes import KeyframePictures
 from app.rerun_scene import Pose
@@ -79,6 +79,8 @@ class RerunViewer:
         self._frame_gate = TimeGate(self.settings.frame_every_s)
         self._depth_gate = TimeGate(self.settings.depth_every_s)
         self._map: tuple[int, MapView] | None = None
+        # The floor plan's, once there is one: until then those of the first camera.
+        self._plan_axes: Axes | None = None
 
     def start(self, session: SessionView) -> None:
         """Open the file and the window; send what does not change.
@@ -160,8 +162,10 @@ class RerunViewer:
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
         """Show the topological graph as it is at a frame."""
+        if graph.T_map_world is not None:
+            self._plan_axes = Axes.of_map(graph.T_map_world)
         self._at(frame)
-        log_graph(self._recording, graph, level_axes(self._all_poses()))
+        log_graph(self._recording, graph, self._axes())
 
     def log(self, frame: int, text: str) -> None:
         """Show an event: a loop closed, a place entered, tracking lost."""
@@ -182,7 +186,7 @@ class RerunViewer:
         """Return the layout with the views set on what is there; on nothing if there is nothing."""
         framing = None
         if len(points_world) or len(path):
-            framing = frame_scene(points_world, path, level_axes(self._all_poses()))
+            framing = frame_scene(points_world, path, self._axes())
         return build_blueprint(framing, self._has_labels)
 
     @property
@@ -250,15 +254,17 @@ class RerunViewer:
         # Fewer points are drawn bigger, so that a map on the way does not look like dust.
         thinning = len(whole.points) / max(len(view.points), 1)
         radius = self.settings.point_radius_m * min(max(thinning, 1.0) ** 0.5, 2.0)
-        up = level_axes(self._all_poses()).up
+        up = self._axes().up
         points = view.points.points_world.astype(np.float64)
         low = below_ceiling(points, view.trajectory, up, self.settings.headroom_m)
         rerun_scene.log_cloud(self._recording, view, low, radius)
         return points[low]
 
-    def _all_poses(self) -> FloatArray:
-        """Return T_world_camera (N, 4, 4) of the frames so far; the identity if there is none."""
-        return np.array([pose.T_world_camera for pose in self._poses] or [np.eye(4)])
+    def _axes(self) -> Axes:
+        """Return the directions in which the scene is shown."""
+        if self._plan_axes is not None:
+            return self._plan_axes
+        return level_axes(np.array([pose.T_world_camera for pose in self._poses] or [np.eye(4)]))
 
 
 def thinned_map(view: MapView, at_most: int) -> MapView:

@@ -15,8 +15,8 @@ from app.input import InputOptions, read_input
 from datasets.camera import Camera
 from datasets.trajectory import Trajectory, read_tum
 
-# Only a folder that holds all of these is a run, and may be overwritten.
-RUN_MARKS = ("config.toml", "frames.csv")
+# Only a folder that holds all of these is a run, and may be overwritten; they are written first.
+RUN_MARKS = ("config.toml", "input.toml")
 # The method of frames that a run did not get to.
 UNREAD = "unread"
 FRAME_COLUMNS = ("timestamp", "state", "inliers", "keyframe", "label", "score", "method")

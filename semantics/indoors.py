@@ -16,6 +16,8 @@ _SOLID, _CLEAR = 2, 2
 _HOLD = 2
 # A hole in what was seen is room if less of its ring than this is wall.
 _OPEN_RING = 0.2
+# So many cells may an edge be ragged: depth noise, and a wall between two cells.
+_RAGGED = 2
 # So many cells from a wall is away from it: its noise, and a cell's diagonal.
 _AWAY = 2.5
 
@@ -90,7 +92,7 @@ def completed(
         seen = ndimage.binary_opening(regions == region, square)
         if not seen.any():
             continue
-        window = ndimage.find_objects(seen.astype(np.int8))[0]
+        window = _firm(seen)
         open_ = ((regions == 0) & ~wall)[window] | seen[window]
         # Through a hole in a wall, narrower than the square, nothing flows.
         open_ = ndimage.binary_opening(open_, square) | seen[window]
@@ -102,6 +104,27 @@ def completed(
             full = np.ones_like(full)
         result[window][full & mine & (result[window] == 0)] = region
     return result
+
+
+def _firm(seen: BoolImage) -> tuple[slice, slice]:
+    """Return the rectangle around what was seen, less its ragged edge.
+
+    Noise puts a wall a cell or two further out here and there: the wall is where half of it is.
+    """
+    rows, columns = ndimage.find_objects(seen.astype(np.int8))[0]
+    inner = seen[rows, columns]
+    return _firm_span(inner.sum(axis=1), rows.start), _firm_span(inner.sum(axis=0), columns.start)
+
+
+def _firm_span(counts: NDArray[np.intp], start: int) -> slice:
+    low, high = _ragged(counts), _ragged(counts[::-1])
+    return slice(start + low, start + len(counts) - high)
+
+
+def _ragged(counts: NDArray[np.intp]) -> int:
+    """Return how many lines at the beginning hold less than half as much as those behind them."""
+    edge = counts[: _RAGGED + 1]
+    return int(np.argmax(edge >= edge.max() / 2))
 
 
 def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:

@@ -67,3 +67,18 @@ def test_the_scene_is_in_sight_and_fills_it(size: tuple[float, float, float]) ->
 def test_a_path_alone_is_seen_with_room_around_it() -> None:
     framing = frame_scene(np.empty((0, 3)), np.zeros((1, 3)), LEVEL)
     assert 3 < np.linalg.norm(framing.eye - framing.target) < 10
+
+
+def test_the_floor_plan_is_seen_as_it_is_drawn() -> None:
+    turn = Rotation.from_euler("xyz", [90, 0, 30], degrees=True).as_matrix()
+    T_map_world = np.eye(4)
+    T_map_world[:3, :3], T_map_world[:3, 3] = turn, [3.0, -2.0, 1.2]
+    corners_map = np.array([[0.0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0]])
+    corners = (corners_map - T_map_world[:3, 3]) @ turn
+    axes = Axes.of_map(T_map_world)
+    seen = axes.on_floor(corners)
+    np.testing.assert_allclose(seen - seen[0], corners_map[:, :2], atol=1e-12)
+    framing = frame_scene(corners, corners, axes)
+    ahead = turn @ (framing.target - framing.eye)
+    np.testing.assert_allclose(ahead[0], 0.0, atol=1e-9)
+    assert ahead[1] > 0 > ahead[2]
