@@ -81,8 +81,9 @@ def completed(
     """Complete each region (R, C) within its rectangle by what hangs together with it unseen.
 
     Corners beside a door are seldom looked at. What is neither wall nor another region belongs to
-    the room as far as its seen part reaches along both directions of the walls. A region that
-    fills nearly all of its rectangle gets the rest, too: that is a cupboard up to the ceiling.
+    the room as far as its seen part reaches along both directions of the walls. Shallow blocks at
+    the sides of its rectangle are its own: stalls and cupboards up to the ceiling. A region that
+    fills nearly all of its rectangle gets the rest, too.
     """
     side = max(1, round(settings.detail_m / cell_m))
     reach = max(1, round(settings.reach_m / cell_m))
@@ -99,6 +100,10 @@ def completed(
         full = ndimage.binary_propagation(seen[window], mask=open_)
         full = ndimage.binary_fill_holes(_corners(full, seen[window]))
         mine = (regions[window] == 0) | (regions[window] == region)
+        full |= _closets(
+            ndimage.binary_opening(~full & mine, square), settings.closet_m / cell_m,
+            settings.squareness,
+        )  # fmt: skip
         # What the fronts of furniture and partitions take up is floor, too.
         if (ndimage.binary_dilation(full, iterations=reach) & mine).mean() >= settings.squareness:
             full = np.ones_like(full)
@@ -125,6 +130,17 @@ def _ragged(counts: NDArray[np.intp]) -> int:
     """Return how many lines at the beginning hold less than half as much as those behind them."""
     edge = counts[: _RAGGED + 1]
     return int(np.argmax(edge >= edge.max() / 2))
+
+
+def _closets(rest: BoolImage, deepest: float, squareness: float) -> BoolImage:
+    """Return those pieces of a rectangle's rest that are blocks, and too shallow for a room."""
+    result = np.zeros_like(rest)
+    pieces, count = ndimage.label(rest)
+    for i, window in enumerate(ndimage.find_objects(pieces, count), 1):
+        piece = pieces[window] == i
+        if min(piece.shape) <= deepest and piece.mean() >= squareness:
+            result[window] |= piece
+    return result
 
 
 def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:

@@ -98,6 +98,18 @@ def test_a_room_ends_where_half_of_its_wall_is():
     assert (rows.min(), rows.max(), columns.min(), columns.max()) == (5, 44, 10, 60)
 
 
+@pytest.mark.parametrize(("deep", "is_room"), [(16, True), (30, False)])
+def test_shallow_blocks_beside_a_room_are_its_cupboards(deep, is_room):
+    regions = np.zeros((80, 90), dtype=np.int32)
+    regions[5:75, 10:80] = 1
+    regions[5 : 5 + deep, 10:30] = regions[5 : 5 + deep, 55:80] = 0
+    walls = np.zeros(regions.shape, dtype=bool)
+    walls[4 + deep, 10:31] = walls[4 + deep, 54:80] = True  # fronts up to the ceiling
+    walls[5 : 5 + deep, [30, 54]] = True
+    full = completed(np.where(walls, 0, regions), walls, SETTINGS.regions, cell_m=0.05)
+    assert (np.count_nonzero(full) == 70 * 70) == is_room
+
+
 def test_two_offices_side_by_side_are_two_though_the_path_took_them_for_one(surveyed):
     # `graph_of` calls both office1.
     places = [node.place for node in found_in(surveyed).nodes]
