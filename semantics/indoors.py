@@ -93,7 +93,7 @@ def completed(
         seen = ndimage.binary_opening(regions == region, square)
         if not seen.any():
             continue
-        window = _firm(seen)
+        window = _firm(seen, wall)
         open_ = ((regions == 0) & ~wall)[window] | seen[window]
         # Through a hole in a wall, narrower than the square, nothing flows.
         open_ = ndimage.binary_opening(open_, square) | seen[window]
@@ -111,25 +111,25 @@ def completed(
     return result
 
 
-def _firm(seen: BoolImage) -> tuple[slice, slice]:
+def _firm(seen: BoolImage, wall: BoolImage) -> tuple[slice, slice]:
     """Return the rectangle around what was seen, less its ragged edge.
 
-    Noise puts a wall a cell or two further out here and there: the wall is where half of it is.
+    Noise puts a wall a cell or two further out here and there: a line of cells that is more wall
+    than floor is not the room's.
     """
-    rows, columns = ndimage.find_objects(seen.astype(np.int8))[0]
-    inner = seen[rows, columns]
-    return _firm_span(inner.sum(axis=1), rows.start), _firm_span(inner.sum(axis=0), columns.start)
+    window = ndimage.find_objects(seen.astype(np.int8))[0]
+    is_room = seen[window].astype(np.int8) - wall[window]
+    rows, columns = (
+        _firm_span(is_room.sum(axis=axis) >= 0, span.start)
+        for axis, span in zip((1, 0), window, strict=True)
+    )
+    return rows, columns
 
 
-def _firm_span(counts: NDArray[np.intp], start: int) -> slice:
-    low, high = _ragged(counts), _ragged(counts[::-1])
-    return slice(start + low, start + len(counts) - high)
-
-
-def _ragged(counts: NDArray[np.intp]) -> int:
-    """Return how many lines at the beginning hold less than half as much as those behind them."""
-    edge = counts[: _RAGGED + 1]
-    return int(np.argmax(edge >= edge.max() / 2))
+def _firm_span(is_room: BoolImage, start: int) -> slice:
+    """Return the lines from the first to the last that is the room's, a few at most left out."""
+    low, high = (int(lines[: _RAGGED + 1].argmax()) for lines in (is_room, is_room[::-1]))
+    return slice(start + low, start + len(is_room) - high)
 
 
 def _closets(rest: BoolImage, deepest: float, squareness: float) -> BoolImage:
