@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -103,7 +104,10 @@ def find_misplacement(
     shape, step = voting[0][0].edges.shape, voting[0][0].step
     tolerance = settings.tolerance * shape[1]
     halves = voting[::2], voting[1::2]
-    first, second = (_search([f for window in half for f in window], settings) for half in halves)
+    with ThreadPoolExecutor(len(halves)) as pool:
+        first, second = pool.map(
+            lambda half: _search([f for window in half for f in window], settings), halves
+        )
     between = Alignment(1 + first.scale - second.scale, first.dx - second.dx, first.dy - second.dy)
     if between.displacement(shape) > tolerance:
         return None

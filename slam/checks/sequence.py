@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ from datasets.errors import DatasetError
 from datasets.frame import Frame
 from datasets.sequence import Sequence
 from datasets.settings import Settings
-from slam.checks.calibration import CalibrationSettings, find_wrong_focal, pair_of
+from slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, pair_of
 from slam.checks.delay import Delay, DelaySettings, find_delay
 from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
 from slam.checks.edges import Outlines, outlines
@@ -29,6 +30,8 @@ REGISTRATION_STEP = 2
 # Frames after the first of a window that it is matched with: the furthest that shows enough of
 # the same, for the more the camera turned, the more it says of the focal lengths.
 MATCHED_AFTER = (24, 7, 3, 1)
+# Windows looked at side by side: their images are in memory at once.
+THREADS = 4
 
 
 class CheckSettings(Settings):
@@ -88,17 +91,17 @@ def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding
 
 def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
     """Say where the focal lengths contradict the motion of the frames' points."""
-    pairs = []
-    for window in _windows(len(sequence), settings.windows, settings.window):
-        first = window[0]
-        later = (first + step for step in MATCHED_AFTER if first + step < len(sequence))
+
+    def look(window: range) -> Pair | None:
+        later = (window[0] + step for step in MATCHED_AFTER if window[0] + step < len(sequence))
         try:
-            pairs.append(
-                pair_of(sequence[first], (sequence[k] for k in later), settings.calibration)
-            )
+            return pair_of(sequence[window[0]], (sequence[k] for k in later), settings.calibration)
         except DatasetError:
-            continue
-    known = [pair for pair in pairs if pair is not None]
+            return None
+
+    windows = _windows(len(sequence), settings.windows, settings.window)
+    with ThreadPoolExecutor(THREADS) as pool:
+        known = [pair for pair in pool.map(look, windows) if pair is not None]
     if not known:
         return []
     finding = find_wrong_focal(known, settings.calibration, SensorNoise())
@@ -106,15 +109,22 @@ def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
 
 
 def _gather(sequence: Sequence, settings: CheckSettings) -> Evidence:
-    windows, depths = [], []
-    for window in _windows(len(sequence), settings.windows, settings.window):
+    def look(window: range) -> tuple[tuple[Outlines, ...], list[NDArray[np.float32]]] | None:
         try:
             frames = [sequence[index] for index in window]
         except DatasetError:
-            continue
-        depths += [_sampled(frame) for frame in frames[::REGISTRATION_STEP]]
-        windows.append(tuple(outlines(frame) for frame in frames))
-    return Evidence(tuple(windows), np.concatenate(depths) if depths else np.empty(0, np.float32))
+            return None
+        depths = [_sampled(frame) for frame in frames[::REGISTRATION_STEP]]
+        return tuple(outlines(frame) for frame in frames), depths
+
+    windows = _windows(len(sequence), settings.windows, settings.window)
+    with ThreadPoolExecutor(THREADS) as pool:
+        found = [seen for seen in pool.map(look, windows) if seen is not None]
+    depths = [depth for _, window in found for depth in window]
+    return Evidence(
+        tuple(window for window, _ in found),
+        np.concatenate(depths) if depths else np.empty(0, np.float32),
+    )
 
 
 def _windows(frames: int, count: int, length: int) -> list[range]:
