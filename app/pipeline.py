@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
 from typing import Any
@@ -19,21 +18,16 @@ from app.journal import Journal
 from app.metrics import run_metrics
 from app.pacing import GrowthGate
 from app.prefetch import prefetch
+from app.products import ProductMaker
 from app.recorder import Recorder
 from app.viewer import MapView, SessionView, Viewer
 from datasets import poses
 from datasets.sequence import Sequence
-from datasets.trajectory import Trajectory
-from semantics.extents import with_extents
-from semantics.graph import SemanticGraph
 from semantics.labeller import FrameLabel, PlaceLabeller
 from semantics.labels import UNKNOWN, LabelSpace
 from semantics.model import PlaceModel
 from semantics.topology import TopologicalMap
-from slam.map import PointMap
-from slam.memory import remember
 from slam.slam import Slam
-from slam.survey import Survey, survey
 from slam.tracking import LoopClosure, Tracking, TrackingState
 from slam.view import View
 
@@ -205,77 +199,20 @@ class Pipeline:
         failure = self._wait()
         self._label_but(0)
         self._take(self.labeller.finish())
-        self._settle()
-        trajectory, graph, points = self._products()
+        maker = ProductMaker(
+            self.sequence.stamps_s, self.slam, self.topology, self.journal, self.settings,
+            self.recorder, self.viewer, self.clock,
+        )  # fmt: skip
+        maker.settle()
+        made = maker.make()
         metrics = run_metrics(
-            self.sequence, self.slam, self.journal, trajectory, graph, points, self.clock,
-            self.warnings,
+            self.sequence, self.slam, self.journal, made.trajectory, made.graph, made.points,
+            self.clock, [*self.warnings, *made.warnings],
         )  # fmt: skip
         self.recorder.write_metrics(metrics)
         if failure is not None:
             raise failure
         return metrics
-
-    def _products(self) -> tuple[Trajectory, SemanticGraph, PointMap]:
-        """Make, show and write what comes of the run; the cloud in a thread beside the rest."""
-        trajectory = self.journal.trajectory()
-        with ThreadPoolExecutor(1, thread_name_prefix="cloud") as pool:
-            fused = pool.submit(self._fuse)
-            with self.clock.stage("write"):
-                self._write_way(trajectory)
-            surveyed = self._survey()
-            graph = self._final_graph(surveyed)
-            self.journal.settle_labels(graph)
-            with self.clock.stage("write graph"):
-                self._write_frames()
-                self._write_graph(graph, surveyed)
-            points = fused.result()
-            view = self.journal.map_view(points, graph)
-            written = pool.submit(self._write_map, view)
-            with self.clock.stage("view"):
-                last = max(0, len(self.journal.labels) - 1)
-                self.viewer.show_map(last, lambda: view)
-                self.viewer.show_graph(last, graph)
-            with self.clock.stage("close"):
-                self.viewer.close()
-            written.result()
-        return trajectory, graph, points
-
-    def _settle(self) -> None:
-        """Write down where frames turned out to be."""
-        apart = self.journal.settle()
-        self.topology.keep(self.slam.placed_poses)
-        self._write_frames()
-        for number, way in enumerate(apart, 1):
-            self.recorder.write_submap(number, way)
-
-    def _write_frames(self) -> None:
-        """Write what is known now of each frame, and which the run did not get to."""
-        labels = self.journal.labels
-        self.recorder.rewrite_frames(labels, self.sequence.stamps_s[len(labels) :])
-
-    def _fuse(self) -> PointMap:
-        with self.clock.stage("map"):
-            return self.slam.build_map()
-
-    def _write_map(self, view: MapView) -> None:
-        with self.clock.stage("write map"):
-            self.recorder.write_map(view.points, view.label_ids, self.labels)
-
-    def _write_way(self, trajectory: Trajectory) -> None:
-        """Write where the camera was, and what its keyframes saw."""
-        placed = self.slam.placed_poses
-        keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
-        self.recorder.write_trajectory(trajectory)
-        if keyframes:
-            stamps_s = {k.id: k.stamp_s for k in keyframes}
-            self.recorder.write_pose_graph(self.slam.mapper.graph, stamps_s)
-        self.recorder.write_memory(remember(keyframes, placed))
-
-    def _write_graph(self, graph: SemanticGraph, surveyed: Survey | None) -> None:
-        self.recorder.write_graph(graph)
-        if surveyed is not None:
-            self.recorder.write_occupancy(surveyed.grid)
 
     def _wait(self) -> Exception | None:
         """Wait for the keyframes in the making; return what went wrong, to be raised at the end."""
@@ -287,28 +224,6 @@ class Pipeline:
             logger.exception("the map is without its last keyframes")
             return error
         return None
-
-    def _survey(self) -> Survey | None:
-        """Find the floor and the free space of the map as it is now."""
-        settings = self.settings.slam
-        with self.clock.stage("survey"):
-            found = survey(
-                self.slam.keyframes, self.slam.placed_poses, settings.ground, settings.space,
-                settings.noise,
-            )  # fmt: skip
-        for warning in () if found is None else found.warnings:
-            logger.warning("%s", warning)
-            self.warnings.append(warning)
-        return found
-
-    def _final_graph(self, surveyed: Survey | None) -> SemanticGraph:
-        """Return the graph with the places' extents and the doorways between them."""
-        with self.clock.stage("extents"):
-            graph = self.topology.snapshot(self.slam.keyframe_poses)
-            if surveyed is None:
-                return graph
-            votes = self.journal.votes(surveyed.keyframes)
-            return with_extents(graph, surveyed, votes, self.settings.semantics.extents)
 
     def _session(self) -> SessionView:
         truth = self.sequence.ground_truth
