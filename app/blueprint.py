@@ -42,7 +42,9 @@ def _maps(framing: Framing | None, labelled: bool) -> rrb.Horizontal:
         ),
         rrb.Vertical(
             rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
-            rrb.Spatial2DView(name="Depth", origin="/world/camera/depth"),
+            rrb.Spatial2DView(
+                name="Depth · red is near, black unknown", origin="/world/camera/depth"
+            ),
         ),
         column_shares=[3, 3, 1.6],
     )
@@ -54,17 +56,17 @@ def _details(labelled: bool) -> rrb.Horizontal:
         x_range=(-1.25 * width, 1.25 * width), y_range=(-1.15 * height, 1.15 * height)
     )
     score = rrb.ScalarAxis(range=(0.0, 1.05), zoom_lock=True)
-    name = "Label and tracking" if labelled else "Tracking"
+    name = "Label on the way, and tracking" if labelled else "Tracking"
     over_time = (
         rrb.StateTimelineView(name=name, origin="/timeline"),
-        rrb.TimeSeriesView(name="Label score", origin="/plots/score", axis_y=score),
+        rrb.TimeSeriesView(name="Probability of the label", origin="/plots/score", axis_y=score),
     )
     return rrb.Horizontal(
         rrb.GraphView(name="Places", origin="/graph", visual_bounds=bounds),
         rrb.Vertical(*over_time) if labelled else over_time[0],
-        rrb.TimeSeriesView(name="Inliers", origin="/plots/inliers"),
+        rrb.TimeSeriesView(name="Inliers · matches that agree", origin="/plots/inliers"),
         rrb.Vertical(
-            rrb.TextDocumentView(name="Now", origin="/status"),
+            rrb.TextDocumentView(name="Now · what the image looks like", origin="/status"),
             rrb.TextLogView(
                 name="Events", origin="/events", columns=_event_columns(),
             ),

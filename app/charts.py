@@ -54,7 +54,7 @@ def label_chart(
     )
     strips.set_yticks(range(len(rows)), [name for name, _ in rows])
     lines.plot(time, scores, color=_LINE, lw=1.0)
-    lines.set(ylim=(0, 1.02), xlim=(0, end), xlabel="time (s)", ylabel="score")
+    lines.set(ylim=(0, 1.02), xlim=(0, end), xlabel="time (s)", ylabel="probability")
     return _svg(figure, (strips, lines))
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
@@ -21,9 +23,11 @@ FloatArray = NDArray[np.float64]
 # For a page as wide as a phone: a figure of this width with this type is legible on one.
 WIDTH_INCHES = 5.0
 _LARGE, _SMALL = 9.0, 5.0
-# Width of a bold letter, with and without some room on both sides of a name, and height of two
-# lines; in heights of a letter.
-_EM, _TIGHT, _TWO_LINES = 0.8, 0.7, 2.8
+# Width of a bold letter, with and without some room on both sides of a name, and height of one and
+# two lines; in heights of a letter.
+_EM, _TIGHT, _ONE_LINE, _TWO_LINES = 0.8, 0.7, 1.5, 2.8
+# Names on one line, where two are not clear of the way, are smaller.
+_SMALLER = 0.8
 # Names are tried at least so far apart, need to be no further than this from the way, and are tried
 # at so many spots across a room at most.
 _SPOT_M, _CLEAR_M, _MOST_SPOTS = 0.1, 0.15, 20
@@ -31,7 +35,7 @@ _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)
 # What is occupied this near to a room's outline is its wall, further in it is furniture.
 _WALL_REACH_M = 0.12
-_INK = "#22262e"
+_INK, _DOOR = "#22262e", "#8a4b2a"
 
 
 def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: FloatArray) -> Figure:
@@ -126,7 +130,7 @@ def _draw_doorway(axes: Axes, graph: SemanticGraph, door: Doorway) -> None:
     """Draw a white gap with a sill along the wall that the doorway is in."""
     ends = doorway_ends(graph, door)
     axes.plot(*ends.T, color="white", lw=4.0, solid_capstyle="butt", zorder=3)
-    axes.plot(*ends.T, color="#b4572a", lw=1.6, solid_capstyle="butt", zorder=3)
+    axes.plot(*ends.T, color=_DOOR, lw=1.6, solid_capstyle="butt", zorder=3)
 
 
 def _name_rooms(
@@ -139,22 +143,29 @@ def _name_rooms(
         area = f"{extent.area_m2:.1f} m²"
         width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
         size = float(np.clip(width / (_EM * max(len(name), 6)), _SMALL, _LARGE))
-        box = size / points_per_metre * np.array([_TIGHT * max(len(name), len(area)), _TWO_LINES])
-        x, y = _clear_spot(extent, path_map, box / 2)
+        tries = []
+        for text, lines, scale in (
+            (f"{name}\n{area}", _TWO_LINES, 1.0), (f"{name}  {area}", _ONE_LINE, _SMALLER),
+        ):  # fmt: skip
+            letters = _TIGHT * max(len(line) for line in text.split("\n"))
+            box = scale * size / points_per_metre * np.array([letters, lines])
+            tries.append((text, scale * size, *_clear_spot(extent, path_map, box / 2)))
+        text, size, (x, y), _ = max(tries, key=lambda tried: tried[-1])
         axes.text(
-            x, y, f"{name}\n{area}", ha="center", va="center", fontsize=size,
-            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=3.5,
+            x, y, text, ha="center", va="center", fontsize=size,
+            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=5.5,
         )  # fmt: skip
 
 
-def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> FloatArray:
-    """Return where in a place something lies clear of a path (N, 2), near the place's middle.
+def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> tuple[FloatArray, float]:
+    """Return where in a place something lies clear of a path (N, 2), and how clear, metres.
 
-    It is twice `half` (2,) wide and high, metres. In the middle if it fits nowhere.
+    It is twice `half` (2,) wide and high, metres, and near the place's middle; in the middle, with
+    a clearance below 0, if it fits nowhere.
     """
     low, high = extent.polygon_map.min(axis=0) + half, extent.polygon_map.max(axis=0) - half
     if (high <= low).any():
-        return extent.centre_map
+        return extent.centre_map, -1.0
     counts = np.clip((high - low) / _SPOT_M, 2, _MOST_SPOTS).astype(int)
     x, y = (np.linspace(*span) for span in zip(low, high, counts, strict=True))
     spots = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
@@ -162,7 +173,7 @@ def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> Float
     outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
     fits = outline.contains_points(corners.reshape(-1, 2)).reshape(-1, 4).all(axis=1)
     if not fits.any():
-        return extent.centre_map
+        return extent.centre_map, -1.0
     spots = spots[fits]
     # Of a long way one spot each is enough, or it would take as much memory as it is long.
     way = np.unique(np.rint(path_map / _SPOT_M), axis=0) * _SPOT_M
@@ -170,7 +181,8 @@ def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> Float
     gaps = np.maximum(np.abs(spots[:, None] - way) - half, 0).max(axis=2)
     clear = np.minimum(gaps.min(axis=1, initial=_CLEAR_M), _CLEAR_M)
     off = np.linalg.norm(spots - extent.centre_map, axis=1)
-    return np.asarray(spots[np.lexsort((off, -clear))[0]])
+    best = np.lexsort((off, -clear))[0]
+    return spots[best], float(clear[best])
 
 
 def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
@@ -180,11 +192,22 @@ def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
     x, y = window[0, 0] + 0.02 * width_m, window[1, 0] - 0.045 * width_m
     axes.plot([x, x + length], [y, y], color=_INK, lw=2.5, solid_capstyle="butt")
     axes.text(x + length + 0.012 * width_m, y, f"{length:g} m", va="center", fontsize=9, color=_INK)
-    entries = [("o", "start"), ("▪", "end"), ("—", "way walked"), ("•", "graph node")]
-    text = "   ".join(f"{mark} {word}" for mark, word in entries)
-    axes.text(
-        window[0, 1] - 0.02 * width_m, y, text, va="center", ha="right", fontsize=7.0, color=_INK
-    )
+    marks: list[tuple[str, dict[str, Any]]] = [
+        ("start", {"marker": "o", "mfc": "white", "mec": _INK}),
+        ("end", {"marker": "s", "mfc": _INK, "mec": "white"}),
+        ("way", {"ls": "-", "lw": 0.8}),
+        ("node", {"marker": "o", "ms": 3.0}),
+        ("doorway", {"ls": "-", "lw": 1.8, "color": _DOOR}),
+        ("wall", {"marker": "s", "color": np.array(_WALL) / 255, "ms": 4.5}),
+        ("furniture", {"marker": "s", "color": np.array(_FURNITURE) / 255, "ms": 4.5}),
+    ]
+    plain: dict[str, Any] = {"color": _INK, "ls": "", "ms": 5.0}
+    handles = [Line2D([], [], label=word, **(plain | style)) for word, style in marks]
+    axes.legend(
+        handles=handles, loc="center right", ncols=len(handles), frameon=False, fontsize=6.0,
+        bbox_to_anchor=(window[0, 1], y), bbox_transform=axes.transData, borderaxespad=0.0,
+        handlelength=1.2, handletextpad=0.3, columnspacing=0.9, labelcolor=_INK,
+    )  # fmt: skip
 
 
 def _colour(graph: SemanticGraph, label_id: int) -> tuple[float, float, float]:

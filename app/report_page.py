@@ -27,9 +27,9 @@ from slam.evaluation import compare
 
 # What the stages of a run are called. Some run in a thread beside the others.
 _STAGES = {
-    "read": "reading (beside)", "features": "features (beside)", "track": "tracking",
-    "view": "showing", "sketch": "sketch (beside)", "label": "labelling",
-    "graph": "graph", "map": "cloud (beside)",
+    "read": "reading (in parallel)", "features": "features (in parallel)", "track": "tracking",
+    "view": "showing", "sketch": "sketch (in parallel)", "label": "labelling",
+    "graph": "graph", "map": "cloud (in parallel)",
     "survey": "free space", "extents": "rooms", "write": "writing poses",
     "write graph": "writing graph", "write map": "writing cloud", "close": "ending recording",
 }  # fmt: skip
@@ -81,13 +81,16 @@ def _reopened(folder: RunFolder) -> FrameSequence | None:
 def _truth_content(
     metrics: Mapping[str, Any], trajectory: Trajectory, truth: Trajectory | None
 ) -> dict[str, Any]:
-    rows = []
-    for key, words in (
-        ("place_precision", "places that are rooms"), ("place_recall", "rooms found"),
-        ("doorway_precision", "doorways that are there"), ("doorway_recall", "doorways found"),
-    ):  # fmt: skip
-        if metrics.get(key) is not None:
-            rows.append((words, f"{metrics[key]:.0%}"))
+    rows = [
+        (words, f"{metrics[key] if is_good else 1 - metrics[key]:.0%}")
+        for key, words, is_good in (
+            ("place_recall", "rooms found", True),
+            ("place_precision", "places that are no room", False),
+            ("doorway_recall", "doorways found", True),
+            ("doorway_precision", "doorways that are none", False),
+        )
+        if metrics.get(key) is not None
+    ]
     for room, error in metrics.get("area_error", {}).items():
         if error is not None:
             rows.append((f"area of {room} off by", f"{error:+.1%}"))
@@ -99,9 +102,9 @@ def _truth_content(
     except SlamError:
         return content
     words = (
-        f"ATE {error.ate_rmse_m * 100:.2f} cm (root mean square), {error.ate_max_m * 100:.1f} cm "
-        f"at most; RPE {error.rpe_trans_rmse_m * 100:.2f} cm and {error.rpe_rot_rmse_deg:.2f}° "
-        "a frame."
+        f"Position (ATE): off by {error.ate_rmse_m * 100:.2f} cm (root mean square), "
+        f"{error.ate_max_m * 100:.1f} cm at most. From frame to frame (RPE): "
+        f"{error.rpe_trans_rmse_m * 100:.2f} cm and {error.rpe_rot_rmse_deg:.2f}°."
     )
     chart = error_chart(error.stamps_s, error.errors_m)
     return content | {"error_chart": Markup(chart), "error_words": words}

@@ -10,6 +10,7 @@ from typing import Any
 from app.errors import AppError
 from app.report_places import data_url
 from app.run_folder import RunFolder
+from datasets.floor_plan import FILE_NAME
 from semantics.graph import SemanticGraph
 from semantics.labels import UNKNOWN
 
@@ -39,6 +40,7 @@ def summary_content(
         "summary": f"{metrics['sequence']}: {metrics['frames']} frames, "
         f"{metrics['keyframes']} keyframes, {metrics['map_points']:,} map points, "
         f"{metrics['graph_nodes']} graph nodes; mapped in {metrics['seconds_total']:.0f} s.",
+        "truth": _truth_words(metrics),
         "figures": figures,
         "warnings": _warnings(graph, metrics),
         "labelled": len(graph.labels) > 1,
@@ -61,6 +63,18 @@ def found_words(graph: SemanticGraph, metrics: Mapping[str, Any]) -> str:
     return f"A walk of {metrics['path_length_m']:.0f} m through {', '.join(parts)}" + (
         f", joined by {_counted(doors, 'doorway')}." if doors else "."
     )
+
+
+def _truth_words(metrics: Mapping[str, Any]) -> str:
+    """Return what the figures of error are measured against; nothing where there are none."""
+    if "ate_rmse_m" not in metrics:
+        return ""
+    if (Path(metrics["sequence"]) / FILE_NAME).is_file():
+        return (
+            "A rendered building: its true path and rooms are known, and errors are measured "
+            "against them. A real camera does worse."
+        )
+    return "Errors are measured against the true path that comes with the sequence."
 
 
 def _counted(count: int, kind: str) -> str:

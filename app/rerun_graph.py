@@ -24,8 +24,6 @@ DOOR_COLOUR: Colour = (255, 140, 60)
 # Half the width and height of the graph's own view, in its units: text has about 12.
 PLAN_SIZE = (230.0, 130.0)
 _MAX_PLAN_SCALE = 60.0
-# What a node without a name is called: an empty name makes an empty box.
-_DOT = "\N{BULLET}"
 # Rooms are outlined just above the floor; doors are drawn as high as doors are.
 _OUTLINE_M, _DOOR_M = 0.03, 2.0
 
@@ -55,7 +53,7 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
     recording.log("world/graph/nodes", nodes)
     recording.log("world/graph/places", names)
     _log_floor(recording, graph)
-    recording.log("graph", *_plan(graph, spots, axes))
+    _log_plan(recording, graph, spots, axes)
 
 
 def place_spots(graph: SemanticGraph) -> dict[str, int]:
@@ -98,22 +96,24 @@ def _log_floor(recording: rr.RecordingStream, graph: SemanticGraph) -> None:
     recording.log("world/graph/doors", doors)
 
 
-def _plan(
-    graph: SemanticGraph, spots: dict[str, int], axes: Axes
-) -> tuple[rr.GraphNodes, rr.GraphEdges]:
-    """Draw every node as a dot, but those in the places' middles by the places' names."""
-    names = {node: place for place, node in spots.items()}
+def _log_plan(
+    recording: rr.RecordingStream, graph: SemanticGraph, spots: dict[str, int], axes: Axes
+) -> None:
+    """Send every node as a dot, and the places' names over those in their middles."""
     ids = [str(node.id) for node in graph.nodes]
+    positions, named = _laid_out(graph, axes), list(spots.values())
     # Of full strength: in a browser the ground may be light.
     colours = [_colour(graph, i) for i in range(len(ids))]
-    nodes = rr.GraphNodes(
-        ids, positions=_laid_out(graph, axes), radii=5.0, colors=colours,
-        labels=[names.get(i, _DOT) for i in range(len(ids))], show_labels=True,
-    )  # fmt: skip
+    dots = rr.GraphNodes(ids, positions=positions, radii=5.0, colors=colours, show_labels=False)
     edges = rr.GraphEdges(
         [(ids[edge.source], ids[edge.target]) for edge in graph.edges], graph_type="undirected"
     )
-    return nodes, edges
+    names = rr.GraphNodes(
+        list(spots), positions=positions[named], labels=list(spots), show_labels=True,
+        colors=[colours[i] for i in named],
+    )  # fmt: skip
+    recording.log("graph/nodes", dots, edges)
+    recording.log("graph/places", names)
 
 
 def _laid_out(graph: SemanticGraph, axes: Axes) -> FloatArray:

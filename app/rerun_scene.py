@@ -69,7 +69,7 @@ def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: i
         log("world/trajectory/truth", truth)
     log("plots/inliers", rr.SeriesLines(names="inliers", colors=USABLE_COLOUR, widths=1.5))
     if len(session.labels) > 1:
-        log("plots/score", rr.SeriesLines(names="label score", colors=TRUTH_COLOUR, widths=1.5))
+        log("plots/score", rr.SeriesLines(names="probability", colors=TRUTH_COLOUR, widths=1.5))
         names = [name.replace("_", " ") for name in session.labels.names]
         log("timeline/label", _states(session.labels.names, names, session.labels.colours))
     states = [*(state.value for state in STATE_COLOURS), SUBMAP]

@@ -44,9 +44,16 @@ def test_without_room_for_that_it_stands_in_the_middle():
     back_and_forth = [(x, y, 1.5) for x in np.linspace(0, 4, 40) for y in np.linspace(0, 4, 40)]
     (x, y), _ = plan([(0, 0), (4, 0), (4, 4), (0, 4)], back_and_forth)
     assert (x, y) == pytest.approx((2.0, 2.0), abs=0.1)
-    narrow = [(x, 0.2, 1.5) for x in np.linspace(0, 4, 40)]
-    (x, y), _ = plan([(0, 0), (4, 0), (4, 0.4), (0, 0.4)], narrow)
-    assert (x, y) == pytest.approx((2.0, 0.2), abs=0.1)
+    narrow = [(x, 0.05, 1.5) for x in np.linspace(0, 4, 40)]
+    (x, y), _ = plan([(0, 0), (4, 0), (4, 0.1), (0, 0.1)], narrow)
+    assert (x, y) == pytest.approx((2.0, 0.05), abs=0.1)
+
+
+def test_in_a_low_room_it_stands_on_one_line_beside_the_way():
+    way = [(x, 0.4, 1.5) for x in np.linspace(0, 4, 40)]
+    _, box = plan([(0, 0), (4, 0), (4, 0.8), (0, 0.8)], way)
+    assert box.y0 >= 0.4 or box.y1 <= 0.4
+    assert box.y0 >= 0 and box.y1 <= 0.8
 
 
 def test_a_long_way_through_a_large_hall_takes_little_memory(rng):

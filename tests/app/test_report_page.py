@@ -75,7 +75,7 @@ def test_the_page_says_what_was_found(mapped):
     for extent in graph.extents:
         assert extent.name in text
         assert f"{extent.area_m2:.1f} m²" in text
-    assert f"ATE {metrics['ate_rmse_m'] * 100:.2f} cm" in text
+    assert f"off by {metrics['ate_rmse_m'] * 100:.2f} cm" in text
     assert "Trajectory against the truth" in text
     assert "Labels over time" in text
     assert "Why these labels" in text

@@ -170,7 +170,7 @@ def test_everything_shown_is_there(recorded: Recorded) -> None:
         "graph/places", "graph/rooms", "graph/doors",
     }  # fmt: skip
     others = {
-        "graph", "plots/inliers", "plots/score", "timeline/label",
+        "graph/nodes", "graph/places", "plots/inliers", "plots/score", "timeline/label",
         "timeline/tracking", "events", "status",
     }  # fmt: skip
     wanted = {f"/world/{name}" for name in world} | {f"/{name}" for name in others} | {"/world"}
@@ -248,16 +248,17 @@ def test_states_are_told_and_coloured(recorded: Recorded) -> None:
 
 
 def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
-    ids = recorded.values("/graph", "GraphNodes:node_ids")
-    assert ids[9] == ["0", "1", "2", "3"]
-    assert recorded.values("/graph", "GraphNodes:labels")[9] == ["kitchen1", "•", "office1", "•"]
+    assert recorded.values("/graph/nodes", "GraphNodes:node_ids")[9] == ["0", "1", "2", "3"]
+    assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
+    dots = recorded.values("/graph/nodes", "GraphNodes:positions")[9]
+    assert recorded.values("/graph/places", "GraphNodes:positions")[9] == [dots[0], dots[2]]
     assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
     nodes = recorded.values("/world/graph/nodes", "Points3D:labels")[9]
     assert nodes == ["kitchen1", "kitchen1", "office1", "office1"]
 
 
 def test_the_plan_lies_across_and_keeps_its_distances(recorded: Recorded) -> None:
-    plan = np.array(recorded.values("/graph", "GraphNodes:positions")[9])
+    plan = np.array(recorded.values("/graph/nodes", "GraphNodes:positions")[9])
     assert np.ptp(plan[:, 0]) >= np.ptp(plan[:, 1])
     steps = np.linalg.norm(np.diff(plan, axis=0), axis=1)
     true = np.diff([true_pose(i * 3)[:3, 3] for i in range(4)], axis=0)
