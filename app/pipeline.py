@@ -203,7 +203,6 @@ class Pipeline:
             self.sequence.stamps_s, self.slam, self.topology, self.journal, self.settings,
             self.recorder, self.viewer, self.clock,
         )  # fmt: skip
-        maker.settle()
         made = maker.make()
         metrics = run_metrics(
             self.sequence, self.slam, self.journal, made.trajectory, made.graph, made.points,

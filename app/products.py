@@ -75,19 +75,9 @@ class ProductMaker:
     viewer: Viewer
     clock: StageClock
 
-    def settle(self) -> None:
-        """Write down where frames turned out to be."""
-        apart = self.journal.settle()
-        self.topology.keep(self.slam.placed_poses)
-        self._write_frames()
-        for number, way in enumerate(apart, 1):
-            self.recorder.write_submap(number, way)
-
     def make(self) -> Products:
-        """Make, show and write everything, the cloud in a thread beside the rest; end the viewer.
-
-        To be called once, after `settle`.
-        """
+        """Make, write and show everything, the cloud in a thread of its own; end the viewer."""
+        self._settle()
         trajectory = self.journal.trajectory()
         with ThreadPoolExecutor(1, thread_name_prefix="cloud") as pool:
             fused = pool.submit(self._fuse)
@@ -106,6 +96,14 @@ class ProductMaker:
             written.result()
         warnings = () if surveyed is None else surveyed.warnings
         return Products(trajectory, graph, points, warnings)
+
+    def _settle(self) -> None:
+        """Write down where frames turned out to be."""
+        apart = self.journal.settle()
+        self.topology.keep(self.slam.placed_poses)
+        self._write_frames()
+        for number, way in enumerate(apart, 1):
+            self.recorder.write_submap(number, way)
 
     def _fuse(self) -> PointMap:
         with self.clock.stage("map"):

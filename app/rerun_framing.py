@@ -31,7 +31,7 @@ class Axes:
     right, forward : (3,) float64
         Horizontal; as the first camera saw them, or as they are on the floor plan.
     up : (3,) float64
-        Against gravity, as far as the camera's motion tells.
+        Against gravity, as far as the camera's motion or the floor plan tells.
     """
 
     right: FloatArray

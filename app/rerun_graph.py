@@ -117,9 +117,12 @@ def _log_plan(
 
 
 def _laid_out(graph: SemanticGraph, axes: Axes) -> FloatArray:
-    """Return where the nodes lie on the plan (N, 2), turned so that its long side lies across."""
+    """Return where the nodes lie on the plan (N, 2).
+
+    Until there is a floor plan, whose long side lies across, it is turned for that.
+    """
     plan = axes.on_floor(graph.positions) * (1.0, -1.0)
-    if np.ptp(plan[:, 1]) > np.ptp(plan[:, 0]):
+    if graph.T_map_world is None and np.ptp(plan[:, 1]) > np.ptp(plan[:, 0]):
         plan = plan[:, ::-1] * (-1.0, 1.0)
     half = np.ptp(plan, axis=0) / 2
     scale = min(_MAX_PLAN_SCALE, *(np.array(PLAN_SIZE) / np.maximum(half, 1e-6)))

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from app.config import AppSettings, write_settings
 from app.console import Terminal
 from app.errors import AppError
@@ -89,7 +91,9 @@ def _check(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> tup
     """Look at the data before a run, and say what cannot be right."""
     if not settings.checks.enabled:
         return ()
-    with terminal.working("Looking at the data (a first run also compiles: some seconds)"):
+    words = "Looking at the data (a first run also compiles: some seconds)"
+    # The matrices are small: BLAS threads would only get in the way of the checks' own.
+    with terminal.working(words), threadpool_limits(1, user_api="blas"):
         findings = check_sequence(sequence, settings.checks)
     for finding in findings:
         logger.warning("%s: %s", finding.kind, finding)

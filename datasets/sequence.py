@@ -59,7 +59,10 @@ class Sequence(Protocol):
     def __len__(self) -> int: ...
 
     def __getitem__(self, index: int) -> Frame:
-        """Read frame `index`; raises DatasetError if one of its images cannot be read."""
+        """Read frame `index`; raises DatasetError if one of its images cannot be read.
+
+        Several threads may read at once.
+        """
         ...
 
 

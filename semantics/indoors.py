@@ -100,10 +100,10 @@ def completed(
         full = ndimage.binary_propagation(seen[window], mask=open_)
         full = ndimage.binary_fill_holes(_corners(full, seen[window]))
         mine = (regions[window] == 0) | (regions[window] == region)
-        full |= _closets(
-            ndimage.binary_opening(~full & mine, square), settings.closet_m / cell_m,
-            settings.squareness,
-        )  # fmt: skip
+        rest = ndimage.binary_opening(~full & mine, square)
+        others = ndimage.binary_dilation(~mine, iterations=reach)
+        deepest = round(settings.closet_m / cell_m)
+        full |= _closets(rest, others, deepest, settings.squareness)
         # What the fronts of furniture and partitions take up is floor, too.
         if (ndimage.binary_dilation(full, iterations=reach) & mine).mean() >= settings.squareness:
             full = np.ones_like(full)
@@ -114,11 +114,12 @@ def completed(
 def _firm(seen: BoolImage, wall: BoolImage) -> tuple[slice, slice]:
     """Return the rectangle around what was seen, less its ragged edge.
 
-    Noise puts a wall a cell or two further out here and there: a line of cells that is more wall
-    than floor is not the room's.
+    Noise puts a wall a cell or two further out here and there: a line of cells with more of the
+    room's wall than of its floor is not the room's. What reaches further is an alcove and stays.
     """
     window = ndimage.find_objects(seen.astype(np.int8))[0]
-    is_room = seen[window].astype(np.int8) - wall[window]
+    own_wall = wall & ndimage.binary_dilation(seen, iterations=_RAGGED)
+    is_room = seen[window].astype(np.int8) - own_wall[window]
     rows, columns = (
         _firm_span(is_room.sum(axis=axis) >= 0, span.start)
         for axis, span in zip((1, 0), window, strict=True)
@@ -127,18 +128,25 @@ def _firm(seen: BoolImage, wall: BoolImage) -> tuple[slice, slice]:
 
 
 def _firm_span(is_room: BoolImage, start: int) -> slice:
-    """Return the lines from the first to the last that is the room's, a few at most left out."""
+    """Return the lines from the first to the last that is the room's, if these are near the ends.
+
+    Where none of the first, or last, few is, none is left out.
+    """
     low, high = (int(lines[: _RAGGED + 1].argmax()) for lines in (is_room, is_room[::-1]))
     return slice(start + low, start + len(is_room) - high)
 
 
-def _closets(rest: BoolImage, deepest: float, squareness: float) -> BoolImage:
-    """Return those pieces of a rectangle's rest that are blocks, and too shallow for a room."""
+def _closets(rest: BoolImage, others: BoolImage, deepest: int, squareness: float) -> BoolImage:
+    """Return those pieces of a rectangle's rest that are blocks, and too shallow for a room.
+
+    A block next to another room may be that one's, or the wall between both.
+    """
     result = np.zeros_like(rest)
     pieces, count = ndimage.label(rest)
     for i, window in enumerate(ndimage.find_objects(pieces, count), 1):
         piece = pieces[window] == i
-        if min(piece.shape) <= deepest and piece.mean() >= squareness:
+        is_block = min(piece.shape) <= deepest and piece.mean() >= squareness
+        if is_block and not others[window][piece].any():
             result[window] |= piece
     return result
 

@@ -38,5 +38,6 @@ class RegionSettings(Settings):
         0.9, gt=0, le=1, description="a region that fills this share of its rectangle is all of it"
     )
     closet_m: float = Field(
-        1.0, ge=0, le=3, description="an unseen block no deeper is a stall or cupboard, not a room"
-    )
+        1.0, ge=0, le=3,
+        description="an unseen block whose shorter side is no longer is a cupboard or stall",
+    )  # fmt: skip

@@ -117,7 +117,10 @@ def test_run_folders_are_dated_and_the_latest_linked(tmp_path, monkeypatch):
 
 def test_only_our_own_output_is_ever_removed(tmp_path):
     ours, other = tmp_path / "ours", tmp_path / "other"
-    for root, names in ((ours, RUN_MARKS), (other, ("config.toml", "thesis.tex"))):
+    for root, names in (
+        (ours, ("run.log", "config.toml", "input.toml")),  # killed before the first frame
+        (other, ("config.toml", "thesis.tex")),
+    ):
         root.mkdir()
         for name in names:
             (root / name).write_text("")

@@ -266,6 +266,15 @@ def test_the_plan_lies_across_and_keeps_its_distances(recorded: Recorded) -> Non
     assert np.allclose(steps / on_floor, (steps / on_floor)[0], rtol=0.05)
 
 
+def test_with_a_floor_plan_the_graph_lies_as_it_does(recorded: Recorded) -> None:
+    shown = np.array(recorded.values("/graph/nodes", "GraphNodes:positions")[N_FRAMES - 1])
+    centres = np.array([true_pose(i * 3)[:3, 3] for i in range(4)])
+    on_map = transform(T_MAP_WORLD, centres)[:, :2] * (1, -1)
+    steps, true = np.diff(shown, axis=0), np.diff(on_map, axis=0)
+    scale = np.linalg.norm(steps) / np.linalg.norm(true)
+    np.testing.assert_allclose(steps, scale * true, atol=1e-3 * scale)
+
+
 def test_rooms_are_outlined_on_the_floor_with_their_doors(recorded: Recorded) -> None:
     last = N_FRAMES - 1
     rooms = recorded.values("/world/graph/rooms", "LineStrips3D:strips")[last]

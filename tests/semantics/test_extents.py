@@ -87,27 +87,61 @@ def test_rooms_have_their_floor_and_doors_join_them(surveyed):
         assert np.all(np.abs(extent.centre_map - SPOTS[extent.name]) < 0.8)
 
 
+def floor_of(regions, walls=None):
+    walls = regions == 0 if walls is None else walls
+    return completed(regions, walls, SETTINGS.regions, cell_m=0.05)
+
+
 def test_a_room_ends_where_half_of_its_wall_is():
     regions = np.zeros((50, 70), dtype=np.int32)
     regions[5:45, 10:60] = 1
     regions[45, 15:30] = 1  # depth noise
     regions[5:20, 8:10] = 1
-    regions[20:45, 60] = 1  # a wall in the middle of its cells
-    full = completed(regions, regions == 0, SETTINGS.regions, cell_m=0.05)
-    rows, columns = np.nonzero(full)
+    regions[24:45, 60] = 1  # a wall in the middle of its cells
+    rows, columns = np.nonzero(floor_of(regions))
     assert (rows.min(), rows.max(), columns.min(), columns.max()) == (5, 44, 10, 60)
 
 
-@pytest.mark.parametrize(("deep", "is_room"), [(16, True), (30, False)])
-def test_shallow_blocks_beside_a_room_are_its_cupboards(deep, is_room):
+@pytest.mark.parametrize(("deep", "stays"), [(2, False), (3, True)])
+def test_what_is_deeper_than_noise_is_an_alcove(deep, stays):
+    regions = np.zeros((60, 70), dtype=np.int32)
+    regions[10:50, 10:60] = 1
+    regions[10 - deep : 10, 20:35] = 1
+    assert (np.nonzero(floor_of(regions))[0].min() < 10) == stays
+
+
+@pytest.mark.parametrize(("deep", "area"), [(16, 70 * 70), (30, 70 * 70 - 30 * 47)])
+def test_shallow_blocks_beside_a_room_are_its_cupboards(deep, area):
     regions = np.zeros((80, 90), dtype=np.int32)
     regions[5:75, 10:80] = 1
     regions[5 : 5 + deep, 10:30] = regions[5 : 5 + deep, 55:80] = 0
     walls = np.zeros(regions.shape, dtype=bool)
     walls[4 + deep, 10:31] = walls[4 + deep, 54:80] = True  # fronts up to the ceiling
     walls[5 : 5 + deep, [30, 54]] = True
-    full = completed(np.where(walls, 0, regions), walls, SETTINGS.regions, cell_m=0.05)
-    assert (np.count_nonzero(full) == 70 * 70) == is_room
+    assert np.count_nonzero(floor_of(np.where(walls, 0, regions), walls)) == area
+
+
+def test_what_is_no_block_is_no_cupboard():
+    regions = np.zeros((80, 90), dtype=np.int32)
+    regions[5:75, 10:80] = 1
+    cut = np.add.outer(np.arange(80), np.arange(90)) < 15 + 38  # a slanting wall
+    regions[cut] = 0
+    assert np.count_nonzero(floor_of(regions)) == np.count_nonzero(regions)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_block_beside_another_room_is_not_taken(swapped):
+    # An L-shaped room, another in its crook, and in that one's far corner a stall.
+    regions = np.zeros((100, 100), dtype=np.int32)
+    regions[5:95, 5:35] = regions[5:35, 5:95] = 1
+    regions[38:95, 38:95] = 2
+    regions[78:95, 65:95] = 0
+    regions = np.where(swapped, np.choose(regions, [0, 2, 1]), regions)
+    walls = np.zeros(regions.shape, dtype=bool)
+    walls[35:38, 35:] = walls[35:, 35:38] = True
+    full = floor_of(regions, walls)
+    mine = regions == (2 if swapped else 1)
+    np.testing.assert_array_equal(full == (2 if swapped else 1), mine)
 
 
 def test_two_offices_side_by_side_are_two_though_the_path_took_them_for_one(surveyed):
