@@ -112,7 +112,7 @@ def _log_plan(
         list(spots), positions=positions[named], labels=list(spots), show_labels=True,
         colors=[colours[i] for i in named],
     )  # fmt: skip
-    recording.log("graph/nodes", dots, edges)
+    recording.log("graph", dots, edges)
     recording.log("graph/places", names)
 
 

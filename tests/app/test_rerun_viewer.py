@@ -170,7 +170,7 @@ def test_everything_shown_is_there(recorded: Recorded) -> None:
         "graph/places", "graph/rooms", "graph/doors",
     }  # fmt: skip
     others = {
-        "graph/nodes", "graph/places", "plots/inliers", "plots/score", "timeline/label",
+        "graph", "graph/places", "plots/inliers", "plots/score", "timeline/label",
         "timeline/tracking", "events", "status",
     }  # fmt: skip
     wanted = {f"/world/{name}" for name in world} | {f"/{name}" for name in others} | {"/world"}
@@ -248,9 +248,9 @@ def test_states_are_told_and_coloured(recorded: Recorded) -> None:
 
 
 def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
-    assert recorded.values("/graph/nodes", "GraphNodes:node_ids")[9] == ["0", "1", "2", "3"]
+    assert recorded.values("/graph", "GraphNodes:node_ids")[9] == ["0", "1", "2", "3"]
     assert recorded.values("/graph/places", "GraphNodes:labels")[9] == ["kitchen1", "office1"]
-    dots = recorded.values("/graph/nodes", "GraphNodes:positions")[9]
+    dots = recorded.values("/graph", "GraphNodes:positions")[9]
     assert recorded.values("/graph/places", "GraphNodes:positions")[9] == [dots[0], dots[2]]
     assert recorded.values("/world/graph/places", "Points3D:labels")[9] == ["kitchen1", "office1"]
     nodes = recorded.values("/world/graph/nodes", "Points3D:labels")[9]
@@ -258,7 +258,7 @@ def test_the_graph_names_each_place_once(recorded: Recorded) -> None:
 
 
 def test_the_plan_lies_across_and_keeps_its_distances(recorded: Recorded) -> None:
-    plan = np.array(recorded.values("/graph/nodes", "GraphNodes:positions")[9])
+    plan = np.array(recorded.values("/graph", "GraphNodes:positions")[9])
     assert np.ptp(plan[:, 0]) >= np.ptp(plan[:, 1])
     steps = np.linalg.norm(np.diff(plan, axis=0), axis=1)
     true = np.diff([true_pose(i * 3)[:3, 3] for i in range(4)], axis=0)
@@ -267,7 +267,7 @@ def test_the_plan_lies_across_and_keeps_its_distances(recorded: Recorded) -> Non
 
 
 def test_with_a_floor_plan_the_graph_lies_as_it_does(recorded: Recorded) -> None:
-    shown = np.array(recorded.values("/graph/nodes", "GraphNodes:positions")[N_FRAMES - 1])
+    shown = np.array(recorded.values("/graph", "GraphNodes:positions")[N_FRAMES - 1])
     centres = np.array([true_pose(i * 3)[:3, 3] for i in range(4)])
     on_map = transform(T_MAP_WORLD, centres)[:, :2] * (1, -1)
     steps, true = np.diff(shown, axis=0), np.diff(on_map, axis=0)
