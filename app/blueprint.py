@@ -43,7 +43,7 @@ def _maps(framing: Framing | None, labelled: bool) -> rrb.Horizontal:
         rrb.Vertical(
             rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
             rrb.Spatial2DView(
-                name="Depth · red is near, black unknown", origin="/world/camera/depth"
+                name="Depth · blue is near, red far, black unknown", origin="/world/camera/depth"
             ),
         ),
         column_shares=[3, 3, 1.6],

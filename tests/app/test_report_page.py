@@ -77,6 +77,7 @@ def test_the_page_says_what_was_found(mapped):
         assert f"{extent.area_m2:.1f} m²" in text
     assert f"off by {metrics['ate_rmse_m'] * 100:.2f} cm" in text
     assert "Trajectory against the truth" in text
+    assert "A rendered building: its true path and rooms are known" in text
     assert "Labels over time" in text
     assert "Why these labels" in text
     for reason in place_reasons(graph):
