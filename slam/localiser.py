@@ -13,6 +13,7 @@ from slam.estimate import Estimate, inverted
 from slam.flow import FlowTracker, Template
 from slam.leaning import SurfaceLeaning
 from slam.local_map import LocalMap
+from slam.overlap import overlap
 from slam.prediction import MotionModel
 from slam.textureless import DepthOdometry
 from slam.tracker import Located, Tracker
@@ -180,7 +181,24 @@ class Localiser:
         located = self.tracker.track(
             view, self._around(reference), self._prediction(view, Anchor(reference, np.eye(4)))
         )
-        return None if located is None else estimate_of(located, view)
+        if located is None or not self._looks_right(view, located):
+            return None
+        return estimate_of(located, view)
+
+    def _looks_right(self, view: View, located: Located) -> bool:
+        """Whether what was just seen looks the same from where features say the camera is.
+
+        If not, or if nothing of it is left in view, they match a pattern that repeats, or the
+        camera has jumped: it is to be found anew.
+        """
+        assert self._last is not None
+        if self._last_view is None or not self._last_view.has_depth:
+            return True
+        T_world_reference = self._T_world_keyframe()[located.local_map.reference]
+        T_camera_world = located.motion.T_camera_reference @ poses.inverse(T_world_reference)
+        T_camera_last = T_camera_world @ self._pose_of(self._last)
+        common = overlap(self._last_view.glance, view.glance, T_camera_last)
+        return common.looks_alike(self.tracker.settings.min_likeness)
 
     def _by_depth(self, view: View) -> Estimate | None:
         """Carry on from the last frame by aligning depth images."""

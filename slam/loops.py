@@ -12,6 +12,7 @@ from slam.appearance import AppearanceIndex, AppearanceSettings
 from slam.consistency import BeliefSettings, LoopBelief
 from slam.keyframe import Keyframe
 from slam.linker import Linker, Measured
+from slam.overlap import overlap
 from slam.pose_graph import PoseGraph
 from slam.view import View
 
@@ -38,6 +39,9 @@ class LoopSettings(Settings):
     min_inliers: int = Field(30, ge=10, description="matches that must agree")
     min_agreement: float = Field(
         0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
+    )
+    min_likeness: float = Field(
+        0.7, ge=-1, le=1, description="correlation of how both show the same surface, at least"
     )
     belief: BeliefSettings = BeliefSettings()
 
@@ -92,10 +96,13 @@ class LoopCloser:
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
     def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:
-        """Whether a motion between look-alikes rests on enough matches, and on depth too."""
+        """Whether a motion between look-alikes rests on enough matches, on depth and on looks."""
         if inliers < self.settings.min_inliers:
             return False
-        return depth_agreement(other.cloud, T_view_other, view) >= self.settings.min_agreement
+        common = overlap(other.glance, view.glance, T_view_other)
+        return common.depth_agreement >= self.settings.min_agreement and common.looks_alike(
+            self.settings.min_likeness
+        )
 
     def _alike(self, keyframe: Keyframe, known: set[int]) -> list[int]:
         ranked = self.index.rank(keyframe.words, before=keyframe.id)
@@ -118,24 +125,3 @@ class LoopCloser:
         order = np.argsort(distance + angle / 45.0, kind="stable")
         ordered = (int(others[i]) for i in order if near[i])
         return [k for k in ordered if k not in known and k < keyframe][: self.settings.neighbours]
-
-
-def depth_agreement(cloud: NDArray[np.float32], T_view_cloud: FloatArray, view: View) -> float:
-    """Return the share of a cloud's points in view that do not lie in space the view sees through.
-
-    Points hidden behind what the view sees count for nothing. 0 where fewer than 50 points are
-    left to compare.
-    """
-    intrinsics, depth = view.frame.intrinsics, view.frame.depth
-    points = poses.transform(T_view_cloud, cloud[::8])
-    points = points[points[:, 2] > 0.1]
-    pixels = np.rint(intrinsics.project(points)).astype(np.intp)
-    inside = np.all((pixels >= 0) & (pixels < (intrinsics.width, intrinsics.height)), axis=1)
-    seen = depth[pixels[inside, 1], pixels[inside, 0]]
-    z = points[inside, 2][seen > 0]
-    seen = seen[seen > 0]
-    tolerance = 0.05 + 0.03 * seen
-    on_surface = int((np.abs(z - seen) <= tolerance).sum())
-    seen_through = int((z < seen - tolerance).sum())
-    total = on_surface + seen_through
-    return on_surface / total if total >= 50 else 0.0

@@ -12,11 +12,15 @@ from numpy.typing import NDArray
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
 from slam.noise import SensorNoise
-from slam.view import without_edges
 
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 UNITS_PER_M = 1000
+# Readings whose neighbours differ by more than this share lie on an edge, where they may belong to
+# either side.
+EDGE_SHARE = 0.05
+# Across a view at a glance: narrower ones than this are taken as they are.
+GLANCE_CELLS = 80
 # Normals are fitted to windows of this many cells a side, and to no fewer readings than this.
 WINDOW, MIN_READINGS = 5, 12
 
@@ -74,6 +78,11 @@ class RangeImage:
         colour = np.ascontiguousarray(self.colour[first::step, first::step])
         return RangeImage(depth_mm, colour, _scaled(self.intrinsics, step, first, depth_mm.shape))
 
+    @property
+    def glance(self) -> RangeImage:
+        """The image in few cells, as a quick look shows it."""
+        return self.every(_stride(self.depth_mm.shape[1]))
+
     def normals(self, noise: SensorNoise) -> NDArray[np.float32]:
         """Return the points' normals (M, 3), unit length, towards the camera.
 
@@ -124,6 +133,23 @@ def range_image_of(frame: Frame, stride: int, max_depth_m: float) -> RangeImage:
         np.rint(mean * UNITS_PER_M).astype(np.uint16), colour,
         _scaled(frame.intrinsics, stride, (stride - 1) / 2, mean.shape),
     )  # fmt: skip
+
+
+def glance_of(frame: Frame) -> RangeImage:
+    """Return a frame in few cells, as a quick look shows it."""
+    return range_image_of(frame, _stride(frame.depth.shape[1]), np.inf)
+
+
+def without_edges(depth: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Clear the readings (H, W) beside depth edges, where cameras report points in mid-air."""
+    kernel = np.ones((3, 3), np.uint8)
+    far = cv2.dilate(depth, kernel)
+    near = cv2.erode(np.where(depth > 0, depth, np.float32(np.inf)), kernel)
+    return np.where(far - near < EDGE_SHARE * depth, depth, np.float32(0))
+
+
+def _stride(width: int) -> int:
+    return max(1, width // GLANCE_CELLS)
 
 
 def _scaled(camera: Intrinsics, step: int, first: float, shape: tuple[int, ...]) -> Intrinsics:

@@ -12,8 +12,7 @@ from datasets.camera import Intrinsics
 from datasets.frame import Frame
 from slam.compiled import compiled
 from slam.noise import SensorNoise
-from slam.range_image import RangeImage
-from slam.view import EDGE_SHARE, without_edges
+from slam.range_image import EDGE_SHARE, RangeImage, without_edges
 
 FloatArray = NDArray[np.float64]
 

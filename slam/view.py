@@ -10,10 +10,7 @@ from numpy.typing import NDArray
 
 from datasets.frame import Frame
 from slam.features import FeatureExtractor, Features
-
-# A feature whose neighbourhood's depth differs by more than this share lies on an edge, where the
-# reading may belong to either side.
-EDGE_SHARE = 0.05
+from slam.range_image import EDGE_SHARE, RangeImage, glance_of
 
 
 class View:
@@ -44,6 +41,7 @@ class View:
         self.grey = cv2.cvtColor(frame.colour, cv2.COLOR_RGB2GRAY)
         self._extractor = extractor
         self._described: tuple[Features, NDArray[np.float64]] | None = None
+        self._glance: RangeImage | None = None
         self._lock = Lock()
 
     @property
@@ -65,6 +63,13 @@ class View:
     def has_depth(self) -> bool:
         """Whether there is any reading at all."""
         return bool(self.frame.depth.any())
+
+    @property
+    def glance(self) -> RangeImage:
+        """Depth and colours in few cells, as a quick look shows them."""
+        if self._glance is None:
+            self._glance = glance_of(self.frame)
+        return self._glance
 
     @property
     def is_described(self) -> bool:
@@ -99,11 +104,3 @@ def depth_at(depth: NDArray[np.float32], pixels: NDArray[np.float64]) -> NDArray
     centre = patch.sum(axis=1) / np.maximum(total, 1)
     sound = (total >= 5) & (high - low < EDGE_SHARE * centre)
     return np.where(sound, centre, 0.0).astype(np.float64)
-
-
-def without_edges(depth: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Clear the readings (H, W) beside depth edges, where cameras report points in mid-air."""
-    kernel = np.ones((3, 3), np.uint8)
-    far = cv2.dilate(depth, kernel)
-    near = cv2.erode(np.where(depth > 0, depth, np.float32(np.inf)), kernel)
-    return np.where(far - near < EDGE_SHARE * depth, depth, np.float32(0))

@@ -18,6 +18,7 @@ from datasets.trajectory import Trajectory
 from slam.consistency import LoopBelief
 from slam.evaluation import compare
 from slam.slam import Slam, SlamSettings
+from slam.tracking import TrackingState
 
 CAMERA = Intrinsics(320, 240, 262.0, 262.0, 159.5, 119.5)
 HEIGHT_M, BAY_M, BAYS = 2.4, 3.0, 5
@@ -76,6 +77,23 @@ def _room(rng, x, poster):
             low = float(rng.uniform(0.6, 1.3))
             quads.append(_upright(place(a, 1.98), place(b, 1.98), low, low + 0.6, _picture(rng)))
     quads.append(_upright((x - 0.45, 1.98), (x + 0.45, 1.98), 0.9, 1.6, poster))
+    return quads
+
+
+def _panelled_room(rng):
+    """A room of 4 by 4 metres: the same panels all round, other pictures above."""
+    plaster = Material(patterns.plaster(rng, 240, 400, (220, 214, 200)))
+    panels = Material(patterns.wood(rng, 240, 800, (170, 150, 130)))
+    turns = [np.array([(c, -s), (s, c)]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    quads = []
+    for side, R in enumerate(turns):
+        a, b = (tuple(R @ (u, 2)) for u in (-2, 2))
+        quads.append(_upright(a, b, 0, 0.85, panels))
+        quads.append(_upright(a, b, 0.85, HEIGHT_M, plaster))
+        for u in np.array([-1.7, -0.5, 0.7]) + 0.6 * (side // 2):
+            a, b = (tuple(R @ (x, 1.98)) for x in (u, u + 0.7))
+            low = float(rng.uniform(1.0, 1.3))
+            quads.append(_upright(a, b, low, low + 0.7, Material(ink.photo(rng, 210, 210))))
     return quads
 
 
@@ -159,3 +177,16 @@ def test_one_poster_in_two_rooms_does_not_join_them(rng, offered):
     assert len(across) >= 2, "the poster is meant to be recognised"
     assert slam.mapper.graph.components == 2
     assert not [t for t in trackings[26:] if t.anchor and slam.is_placed(t.anchor)]
+
+
+def test_a_jump_to_the_same_panels_on_another_wall_is_noticed(rng):
+    """Half of what is seen fits where the camera was; the other half does not look like it."""
+    sweep = np.linspace(80, 100, 15)
+    still = np.zeros(15)
+    here, there = (_cameras(still, still, sweep + turn) for turn in (0, 180))
+    _, trackings = _run(_frames(_panelled_room(rng), np.concatenate([here, there])))
+    assert all(t.state is TrackingState.OK for t in trackings[:15])
+    assert trackings[15].state is TrackingState.LOST
+    first = trackings[15].anchor.keyframe
+    assert trackings[15].is_keyframe
+    assert all(t.anchor.keyframe >= first for t in trackings[15:]), "a map of its own"

@@ -8,7 +8,8 @@ from slam.appearance import AppearanceIndex, AppearanceSettings
 from slam.errors import SlamError
 from slam.features import FeatureExtractor, Features, FeatureSettings, root
 from slam.matching import match, match_near, near, squared_distances
-from slam.view import View, depth_at, without_edges
+from slam.range_image import without_edges
+from slam.view import View, depth_at
 
 
 def test_distances_agree_with_scipy(rng):
