@@ -14,9 +14,10 @@ from datasets import poses
 from slam.estimate import Estimate
 from slam.features import Features
 from slam.keyframe import Keyframe
-from slam.local_map import Described, LocalMap, like_minded, local_map
+from slam.local_map import LocalMap, like_minded, local_map
 from slam.mapper import Mapper, MapUpdate
 from slam.pose_graph import Link
+from slam.range_image import RangeImage
 from slam.tracking import LoopClosure
 from slam.view import View
 
@@ -43,6 +44,10 @@ class _Pending:
     @property
     def points(self) -> FloatArray:
         return self.view.points_camera
+
+    @property
+    def thumbnail(self) -> RangeImage:
+        return self.view.thumbnail
 
 
 class Backend:
@@ -107,6 +112,10 @@ class Backend:
         chosen = like_minded(reference, linked, self.poses, self.mapper.settings.neighbours)
         return local_map([(self._described(k), self.poses[k]) for k in chosen])
 
+    def thumbnail(self, keyframe: int) -> RangeImage:
+        """Return what a keyframe, done or in the making, shows in few cells."""
+        return self._described(keyframe).thumbnail
+
     def known_points(self, keyframe: int) -> FloatArray:
         """Return where a keyframe's features lie in its camera (N, 3), of those with depth."""
         points = self._described(keyframe).points
@@ -138,7 +147,7 @@ class Backend:
                 self._neighbours[link.second].add(link.first)
         return (way | self._neighbours[done]) - {reference}
 
-    def _described(self, keyframe: int) -> Described:
+    def _described(self, keyframe: int) -> _Pending | Keyframe:
         """Return a keyframe, done or in the making."""
         making = next((pending for pending in self._pending if pending.id == keyframe), None)
         return making or self.keyframes[keyframe]

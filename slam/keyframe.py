@@ -55,14 +55,9 @@ class Keyframe:
         return self.image.points
 
     @property
-    def glance(self) -> RangeImage:
+    def thumbnail(self) -> RangeImage:
         """The depth image and its colours in few cells."""
-        return self.image.glance
-
-    @property
-    def colours(self) -> NDArray[np.uint8]:
-        """Of the cloud (M, 3)."""
-        return self.image.colours
+        return self.image.thumbnail
 
     @property
     def nbytes(self) -> int:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +16,27 @@ from slam.leaning import SurfaceLeaning
 from slam.local_map import LocalMap
 from slam.overlap import overlap
 from slam.prediction import MotionModel
+from slam.range_image import RangeImage
 from slam.textureless import DepthOdometry
 from slam.tracker import Located, Tracker
 from slam.tracking import Anchor
 from slam.view import View
 
 FloatArray = NDArray[np.float64]
+
+
+class KnownMap(Protocol):
+    """What is known of the map now."""
+
+    @property
+    def poses(self) -> Mapping[int, FloatArray]:
+        """T_world_keyframe (4, 4) by keyframe id."""
+
+    def around(self, reference: int) -> LocalMap:
+        """Return the points around a keyframe."""
+
+    def thumbnail(self, keyframe: int) -> RangeImage:
+        """Return what a keyframe shows, in few cells."""
 
 
 class Localiser:
@@ -34,10 +50,10 @@ class Localiser:
         What to expect, and what to hold on to where a view leaves something open.
     leaning : SurfaceLeaning
         What improves poses that few features hold.
-    T_world_keyframe : callable
-        Returns the poses known now, by keyframe id.
-    around : callable
-        Returns the points around a keyframe, by its id.
+    known : KnownMap
+        The keyframes to go by.
+    min_correlation : float
+        Of a view found by features with its keyframe, at least.
     """
 
     def __init__(
@@ -47,12 +63,12 @@ class Localiser:
         depth: DepthOdometry,
         motion: MotionModel,
         leaning: SurfaceLeaning,
-        T_world_keyframe: Callable[[], Mapping[int, FloatArray]],
-        around: Callable[[int], LocalMap],
+        known: KnownMap,
+        min_correlation: float,
     ) -> None:
         self.flow, self.tracker, self.depth = flow, tracker, depth
         self.motion, self.leaning = motion, leaning
-        self._T_world_keyframe, self._around = T_world_keyframe, around
+        self._map, self._min_correlation = known, min_correlation
         self._template: Template | None = None
         self._template_covariance: FloatArray = np.zeros((6, 6))
         self._last: Anchor | None = None
@@ -112,7 +128,7 @@ class Localiser:
         self._is_broken = True
 
     def _pose_of(self, anchor: Anchor) -> FloatArray:
-        return np.asarray(self._T_world_keyframe()[anchor.keyframe] @ anchor.T_keyframe_camera)
+        return np.asarray(self._map.poses[anchor.keyframe] @ anchor.T_keyframe_camera)
 
     def _since(self, view: View) -> float:
         """Return the seconds since the last view; 0 before there is one."""
@@ -179,26 +195,28 @@ class Localiser:
         assert self._last is not None
         reference = self._last.keyframe
         located = self.tracker.track(
-            view, self._around(reference), self._prediction(view, Anchor(reference, np.eye(4)))
+            view, self._map.around(reference), self._prediction(view, Anchor(reference, np.eye(4)))
         )
         if located is None or not self._looks_right(view, located):
             return None
         return estimate_of(located, view)
 
     def _looks_right(self, view: View, located: Located) -> bool:
-        """Whether what was just seen looks the same from where features say the camera is.
+        """Whether the keyframe that most matches come from looks the same from that pose.
 
-        If not, or if nothing of it is left in view, they match a pattern that repeats, or the
-        camera has jumped: it is to be found anew.
+        If not, they match a pattern that repeats: the camera has jumped, and is to be found anew.
         """
-        assert self._last is not None
-        if self._last_view is None or not self._last_view.has_depth:
-            return True
-        T_world_reference = self._T_world_keyframe()[located.local_map.reference]
-        T_camera_world = located.motion.T_camera_reference @ poses.inverse(T_world_reference)
-        T_camera_last = T_camera_world @ self._pose_of(self._last)
-        common = overlap(self._last_view.glance, view.glance, T_camera_last)
-        return common.looks_alike(self.tracker.settings.min_likeness)
+        owners = located.matches_by_owner()
+        nearest = max(owners, key=lambda keyframe: owners[keyframe])
+        T_world_reference, T_world_nearest = (
+            self._map.poses[keyframe] for keyframe in (located.local_map.reference, nearest)
+        )
+        T_reference_nearest = poses.inverse(T_world_reference) @ T_world_nearest
+        common = overlap(
+            self._map.thumbnail(nearest), view.thumbnail,
+            located.motion.T_camera_reference @ T_reference_nearest,
+        )  # fmt: skip
+        return common.looks_alike(self._min_correlation)
 
     def _by_depth(self, view: View) -> Estimate | None:
         """Carry on from the last frame by aligning depth images."""

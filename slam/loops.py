@@ -40,8 +40,8 @@ class LoopSettings(Settings):
     min_agreement: float = Field(
         0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
     )
-    min_likeness: float = Field(
-        0.7, ge=-1, le=1, description="correlation of how both show the same surface, at least"
+    min_correlation: float = Field(
+        0.7, ge=-1, le=1, description="of the grey levels of the surface that both show, at least"
     )
     belief: BeliefSettings = BeliefSettings()
 
@@ -99,9 +99,9 @@ class LoopCloser:
         """Whether a motion between look-alikes rests on enough matches, on depth and on looks."""
         if inliers < self.settings.min_inliers:
             return False
-        common = overlap(other.glance, view.glance, T_view_other)
+        common = overlap(other.thumbnail, view.thumbnail, T_view_other)
         return common.depth_agreement >= self.settings.min_agreement and common.looks_alike(
-            self.settings.min_likeness
+            self.settings.min_correlation
         )
 
     def _alike(self, keyframe: Keyframe, known: set[int]) -> list[int]:

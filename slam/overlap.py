@@ -16,11 +16,14 @@ FloatArray = NDArray[np.float64]
 FEWEST = 50
 # Surfaces are the same within so many metres, and so much of their distance.
 TOLERANCE_M, TOLERANCE_SHARE = 0.05, 0.03
-# Cells a side of the blocks within which greys are compared: light and dark halves of a view are
-# much the same everywhere.
-BLOCK = 20
-# Grey levels (standard deviation) below which a surface is bare: noise and vignetting look so too.
-BARE = 5.0
+# Blocks across a view within which greys are compared: light and dark halves are much the same
+# everywhere.
+BLOCKS = 4
+# Standard deviation of grey levels, as a share of their mean and in levels, below which a surface
+# is bare: noise and vignetting look so too.
+BARE_SHARE, BARE_LEVELS = 0.04, 1.0
+# Grey levels beyond which a cell may be clipped.
+DARKEST, BRIGHTEST = 5.0, 250.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,15 +38,14 @@ class Overlap:
         Cells that lie on the surface the other sees.
     seen_through : int
         Cells where the other sees something farther off.
-    likeness : float or None
-        Correlation of the grey levels of the cells that lie on the same surface, each against
-        the mean around it, -1 to 1: the same under any exposure. None where either view shows it
-        bare.
+    correlation : float or None
+        Of the grey levels of the cells that lie on the same surface, each against the mean around
+        it, -1 to 1: the same under any gain. None where there are few, or all are bare.
     """
 
     same: int
     seen_through: int
-    likeness: float | None
+    correlation: float | None
 
     @property
     def depth_agreement(self) -> float:
@@ -53,15 +55,15 @@ class Overlap:
 
     def looks_alike(self, least: float) -> bool:
         """Whether the same surface looks the same, as far as it looks like anything."""
-        return self.same >= FEWEST and (self.likeness is None or self.likeness >= least)
+        return self.correlation is None or self.correlation >= least
 
 
 def overlap(image: RangeImage, other: RangeImage, T_other_image: FloatArray) -> Overlap:
     """Compare what a view saw with what another sees, at the motion (4, 4) between them.
 
     Matches of a pattern that repeats (wallpaper, a row of posters) agree with each other, and bare
-    surface with any other; but what lies around the matches then looks different. The cells are
-    wide enough for blur, and for the errors of a motion, not to matter.
+    surface with any other; but what lies around the matches then looks different. Blur narrower
+    than a few cells hardly matters; a motion wrong by some centimetres does.
     """
     points = poses.transform(T_other_image, image.points.astype(np.float64))
     ahead = np.flatnonzero(points[:, 2] > 0.1)
@@ -73,23 +75,31 @@ def overlap(image: RangeImage, other: RangeImage, T_other_image: FloatArray) -> 
     tolerance = TOLERANCE_M + TOLERANCE_SHARE * seen
     same = (seen > 0) & (np.abs(z - seen) <= tolerance)
     seen_through = (seen > 0) & (z < seen - tolerance)
-    ahead, x, y = ahead[same], x[same], y[same]
-    blocks = (y // BLOCK) * width + x // BLOCK
-    shown = (
-        _against_mean(greys.mean(axis=1), blocks)
-        for greys in (image.colours[ahead], other.colour[y, x])
-    )
-    return Overlap(len(ahead), int(seen_through.sum()), _likeness(*shown))
+    greys = image.colours[ahead[same]].mean(axis=1), other.colour[y[same], x[same]].mean(axis=1)
+    block = max(1, width // BLOCKS)
+    blocks = (y[same] // block) * width + x[same] // block
+    return Overlap(int(same.sum()), int(seen_through.sum()), _correlation(*greys, blocks))
+
+
+def _correlation(one: FloatArray, other: FloatArray, blocks: NDArray[np.intp]) -> float | None:
+    """Return the correlation of grey levels (N,), less the means of the blocks they lie in."""
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    exposed = (low > DARKEST) & (high < BRIGHTEST)
+    one, other, blocks = one[exposed], other[exposed], blocks[exposed]
+    if len(one) < FEWEST:
+        return None
+    signals = [_against_mean(greys, blocks) for greys in (one, other)]
+    bare = [
+        signal.std() < max(BARE_LEVELS, BARE_SHARE * greys.mean())
+        for signal, greys in zip(signals, (one, other), strict=True)
+    ]
+    power = float(np.sqrt((signals[0] @ signals[0]) * (signals[1] @ signals[1])))
+    if all(bare):
+        return None
+    return float(signals[0] @ signals[1]) / power if power > 0 else 0.0
 
 
 def _against_mean(greys: FloatArray, blocks: NDArray[np.intp]) -> FloatArray:
     """Return grey levels (N,) less the means of the blocks (N,) that they lie in."""
     count = np.maximum(np.bincount(blocks), 1)
     return np.asarray(greys - (np.bincount(blocks, greys) / count)[blocks])
-
-
-def _likeness(one: FloatArray, other: FloatArray) -> float | None:
-    """Return the correlation of two signals (N,) without mean, None where either is weak."""
-    if len(one) < FEWEST or min(one.std(), other.std()) < BARE:
-        return None
-    return float(one @ other / np.sqrt((one @ one) * (other @ other)))

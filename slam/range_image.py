@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import cv2
@@ -19,8 +19,8 @@ UNITS_PER_M = 1000
 # Readings whose neighbours differ by more than this share lie on an edge, where they may belong to
 # either side.
 EDGE_SHARE = 0.05
-# Across a view at a glance: narrower ones than this are taken as they are.
-GLANCE_CELLS = 80
+# Cells across a thumbnail, about.
+THUMBNAIL_CELLS = 80
 # Normals are fitted to windows of this many cells a side, and to no fewer readings than this.
 WINDOW, MIN_READINGS = 5, 12
 
@@ -79,9 +79,12 @@ class RangeImage:
         return RangeImage(depth_mm, colour, _scaled(self.intrinsics, step, first, depth_mm.shape))
 
     @property
-    def glance(self) -> RangeImage:
-        """The image in few cells, as a quick look shows it."""
-        return self.every(_stride(self.depth_mm.shape[1]))
+    def thumbnail(self) -> RangeImage:
+        """The image in few cells, their colours averaged."""
+        small = self.every(_stride(self.depth_mm.shape[1]))
+        height, width = small.depth_mm.shape
+        colour = cv2.resize(self.colour, (width, height), interpolation=cv2.INTER_AREA)
+        return replace(small, colour=colour)
 
     def normals(self, noise: SensorNoise) -> NDArray[np.float32]:
         """Return the points' normals (M, 3), unit length, towards the camera.
@@ -135,8 +138,8 @@ def range_image_of(frame: Frame, stride: int, max_depth_m: float) -> RangeImage:
     )  # fmt: skip
 
 
-def glance_of(frame: Frame) -> RangeImage:
-    """Return a frame in few cells, as a quick look shows it."""
+def thumbnail_of(frame: Frame) -> RangeImage:
+    """Return a frame in few cells, depth and colours averaged."""
     return range_image_of(frame, _stride(frame.depth.shape[1]), np.inf)
 
 
@@ -149,7 +152,7 @@ def without_edges(depth: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _stride(width: int) -> int:
-    return max(1, width // GLANCE_CELLS)
+    return max(1, round(width / THUMBNAIL_CELLS))
 
 
 def _scaled(camera: Intrinsics, step: int, first: float, shape: tuple[int, ...]) -> Intrinsics:

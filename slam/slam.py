@@ -55,6 +55,13 @@ class LossSettings(Settings):
     pause: int = Field(
         10, ge=1, description="lost frames from one try to begin a sub-map to the next"
     )
+    min_correlation: float = Field(
+        0.5,
+        ge=-1,
+        le=1,
+        description="of the grey levels of the surface that a view found by features shares with "
+        "its keyframe, at least: less, and the camera is lost",
+    )
     reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
     speed_m_s: float = Field(
         1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
@@ -121,7 +128,7 @@ class Slam:
         self._localiser = Localiser(
             FlowTracker(settings.flow, settings.noise), self._tracker, depth,
             MotionModel(settings.prediction), SurfaceLeaning(settings.leaning, settings.noise),
-            lambda: self._backend.poses, self._backend.around,
+            self._backend, settings.loss.min_correlation,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
         self._selector = KeyframeSelector(settings.keyframes, settings.textureless.keyframe_m)

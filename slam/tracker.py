@@ -36,9 +36,6 @@ class TrackerSettings(Settings):
     min_share: float = Field(
         0.15, ge=0, le=1, description="of matches that must agree with a pose at least"
     )
-    min_likeness: float = Field(
-        0.5, ge=-1, le=1, description="correlation with what the last view showed, at least"
-    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from datasets.frame import Frame
 from slam.features import FeatureExtractor, Features
-from slam.range_image import EDGE_SHARE, RangeImage, glance_of
+from slam.range_image import EDGE_SHARE, RangeImage, thumbnail_of
 
 
 class View:
@@ -41,7 +41,7 @@ class View:
         self.grey = cv2.cvtColor(frame.colour, cv2.COLOR_RGB2GRAY)
         self._extractor = extractor
         self._described: tuple[Features, NDArray[np.float64]] | None = None
-        self._glance: RangeImage | None = None
+        self._thumbnail: RangeImage | None = None
         self._lock = Lock()
 
     @property
@@ -65,11 +65,11 @@ class View:
         return bool(self.frame.depth.any())
 
     @property
-    def glance(self) -> RangeImage:
-        """Depth and colours in few cells, as a quick look shows them."""
-        if self._glance is None:
-            self._glance = glance_of(self.frame)
-        return self._glance
+    def thumbnail(self) -> RangeImage:
+        """Depth and colours in few cells."""
+        if self._thumbnail is None:
+            self._thumbnail = thumbnail_of(self.frame)
+        return self._thumbnail
 
     @property
     def is_described(self) -> bool:

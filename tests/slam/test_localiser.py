@@ -8,7 +8,7 @@ from datasets.trajectory import Trajectory
 from slam.evaluation import compare
 from slam.features import FeatureExtractor
 from slam.slam import Slam, SlamSettings
-from slam.tracking import TrackingState
+from slam.tracking import Anchor, TrackingState
 
 
 def _track(sequence, frames, change):
@@ -64,3 +64,31 @@ def test_no_features_are_looked_for_where_there_is_no_depth(rendered_sequence, m
         # Far from the walk's beginning: flow cannot follow, and nothing else is tried.
         view = slam.prepare(_without_depth(rendered_sequence[55]))
         assert slam.process(view).state is TrackingState.SKIPPED
+
+
+def _featured():
+    """A run without optical flow: each pose is by features."""
+    return Slam(SlamSettings.model_validate({"flow": {"enabled": False}}))
+
+
+def test_views_by_features_are_believed_where_they_look_right(rendered_sequence):
+    slam = _featured()
+    trackings = [slam.process(rendered_sequence[i]) for i in range(0, 30, 3)]
+    assert {t.method for t in trackings} == {"features"}
+    assert all(t.state is TrackingState.OK for t in trackings)
+
+
+def test_a_wrong_pose_is_put_right_by_features(rendered_sequence):
+    """What a view is compared with must not depend on where the last one was believed to be."""
+    slam = _featured()
+    for i in range(12):
+        slam.process(rendered_sequence[i])
+    last = slam._localiser._last
+    aside = last.T_keyframe_camera.copy()
+    aside[0, 3] += 0.1
+    slam._localiser._last = Anchor(last.keyframe, aside)
+    tracking = slam.process(rendered_sequence[12])
+    assert tracking.method == "features"
+    true = rendered_sequence.ground_truth.T_world_camera
+    moved = np.linalg.inv(true[0]) @ true[12]
+    assert np.linalg.norm((tracking.T_world_camera - moved)[:3, 3]) < 0.01

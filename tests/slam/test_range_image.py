@@ -3,7 +3,7 @@ import pytest
 
 from datasets.camera import Intrinsics
 from datasets.frame import Frame
-from slam.range_image import RangeImage, range_image_of
+from slam.range_image import RangeImage, range_image_of, thumbnail_of
 
 from .helpers import CAMERA, NOISE
 
@@ -34,6 +34,16 @@ def test_cells_are_the_middles_of_a_planes_pixels_to_half_a_millimetre(rng):
     means = frame.colour.reshape(120, 4, 160, 4, 3).mean(axis=(1, 3)).reshape(-1, 3)
     assert np.abs(image.colours - means).max() <= 0.51
     assert image.nbytes == 5 * 120 * 160
+
+
+def test_thumbnails_are_some_eighty_cells_wide_whatever_they_are_made_of(rng):
+    frame = _frame(_plane_depth(np.array([0.2, 0.1, 1.0]), 2.0), rng)
+    small, thinned = thumbnail_of(frame), range_image_of(frame, 4, 5.0).thumbnail
+    assert small.depth_mm.shape == thinned.depth_mm.shape == (60, 80)
+    means = frame.colour.reshape(60, 8, 80, 8, 3).mean(axis=(1, 3))
+    for image in (small, thinned):
+        assert np.abs(image.colour - means).max() <= 1.0
+        assert np.abs(image.points @ np.array([0.2, 0.1, 1.0]) - 2.0).max() < 0.001
 
 
 def test_the_mean_of_a_cell_is_less_noisy_than_a_reading(rng):
