@@ -11,10 +11,10 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     frame_every_s: float = Field(
-        0.15, ge=0, description="a frame is shown every so many seconds of the sequence; "
+        0.2, ge=0, description="a frame is shown every so many seconds of the sequence; "
         "lost and found ones and the last one always",
     )  # fmt: skip
-    depth_every_s: float = Field(0.3, ge=0, description="the depth of a frame, likewise")
+    depth_every_s: float = Field(0.4, ge=0, description="the depth of a frame, likewise")
     jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
     depth_step: int = Field(3, ge=1, le=16, description="every n-th row and column of the depth")
     max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
