@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.allocation import keep_memory
 from app.bench_worker import BenchJob, BenchRun, bench_once
 
 SCHEMA = "roomgraph/bench/1"
@@ -41,7 +42,7 @@ def run_all(
 
 def bench_alone(job: BenchJob) -> BenchRun:
     """Run a job in a new process, so that its memory is its own."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=keep_memory) as pool:
         return pool.submit(bench_once, job).result()
 
 

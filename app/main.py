@@ -8,9 +8,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-# Objects made from one look for garbage to the next. Nearly all that is loaded and mapped is for
-# keeps: by Python's own number, 700, looking through it again and again stops a run for 0.1 s each.
-_GARBAGE_EVERY = 10_000
+from app.allocation import keep_memory
 
 
 def main() -> None:
@@ -24,7 +22,7 @@ def main() -> None:
             "install roomgraph into an environment of its own\n"
         )
         sys.exit(1)
-    gc.set_threshold(_GARBAGE_EVERY)
+    keep_memory()
     # At the end the system takes all memory back at once: in pieces takes Python half a second.
     atexit.register(gc.freeze)
     from app.cli import cli
