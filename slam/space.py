@@ -104,70 +104,77 @@ def carve(
     T_map_keyframe = {k.id: ground.T_map_world @ T_world_keyframe[k.id] for k in kept}
     space = _empty(kept, T_map_keyframe, settings)
     low, high = space.heights_m[:2]
-    lattice = np.array([*space.origin_xy, low, space.cell_m, high - low])
-    sigma = noise.coefficients
+    sides = np.array([space.cell_m, space.cell_m, high - low])
+    corner = np.array([*space.origin_xy, low])
+    # What lies further below the floor than the floor is thick is not there.
+    lowest = 1.0 - 2.0 * low / (high - low)
     # Of each cell: twice the number of the keyframe that last saw it, and 1 if that hit it.
     last = np.zeros(space.hits.shape, dtype=np.int32)
     for number, keyframe in enumerate(kept, 1):
-        _carve(
-            T_map_keyframe[keyframe.id], keyframe.cloud, keyframe.image.normals(noise),
-            keyframe.id % settings.ray_every, settings.ray_every, lattice, sigma, 2 * number, last,
-            space.hits, space.passes,
+        T, cloud = T_map_keyframe[keyframe.id], keyframe.cloud
+        A, start = T[:3, :3] / sides[:, None], (T[:3, 3] - corner) / sides
+        start[2] += 1.0  # Below the second layer lies the first.
+        _hit(
+            A, start, T[2, :3].copy(), cloud, keyframe.image.normals(noise), space.cell_m / 2,
+            noise.coefficients, lowest, 2 * number, last, space.hits,
+        )  # fmt: skip
+        rays = np.ascontiguousarray(cloud[keyframe.id % settings.ray_every :: settings.ray_every])
+        _pass(
+            A, start, rays, space.cell_m, noise.coefficients, lowest, 2 * number, last,
+            space.passes,
         )  # fmt: skip
     return space
 
 
 @compiled
-def _carve(
-    T: FloatArray,
+def _hit(
+    A: FloatArray,
+    start: FloatArray,
+    up: FloatArray,
     cloud: NDArray[np.float32],
     normals: NDArray[np.float32],
-    first: int,
-    every: int,
-    lattice: FloatArray,
+    behind_m: float,
     noise: FloatArray,
+    lowest: float,
     stamp: int,
     last: NDArray[np.int32],
     hits: NDArray[np.uint16],
-    passes: NDArray[np.uint16],
 ) -> None:
-    """Count what a keyframe hits and sees through, each cell once; hits go before passes.
+    """Count the cells that a keyframe sees a surface in, each once.
 
     Parameters
     ----------
-    T : (4, 4) float64
-        T_map_keyframe.
+    A, start : (3, 3), (3,) float64
+        From the camera's frame, metres, to column, row and layer.
+    up : (3,) float64
+        In the camera's frame.
     cloud, normals : (N, 3) float32
-        All of these hit; the normals look to the camera, or are 0. From the `first`, one in
-        `every` is followed from the camera.
-    lattice : (5,) float64
-        x and y of the outer corner, height of the second layer, side of a cell, layer's height.
+        The normals look to the camera, or are 0.
+    behind_m : float
+        Half a cell. What is solid lies behind the surface: that far on is the first cell that is
+        mostly solid, and what is left free before it is, on average, as wide as the room.
     noise : (2,) float64
         Standard deviation of a depth: at no distance, and what a square metre adds.
+    lowest : float
+        The layer, as a fraction, below which nothing is.
     stamp : int
         Even, and larger than any before.
+    last : (L, R, C) int32
+        `stamp` + 1 where this keyframe has hit.
+    hits : (L, R, C) uint16
+        Is added to.
     """
-    cell = lattice[3]
-    # From the camera to cells: columns, rows, layers.
-    A, start = np.empty((3, 3)), np.empty(3)
-    for k in range(3):
-        side = lattice[4] if k == 2 else cell
-        A[k], start[k] = T[k, :3] / side, (T[k, 3] - lattice[k]) / side
-    start[2] += 1.0  # Below the second layer lies the first.
-    # What lies further below the floor than the floor is thick is not there.
-    lowest = 1.0 - 2.0 * lattice[2] / lattice[4]
     for i in range(len(cloud)):
         x, y, z = cloud[i, 0], cloud[i, 1], cloud[i, 2]
         sigma = noise[0] + noise[1] * z * z
-        if sigma > cell / 2:
+        if sigma > behind_m:
             continue
-        # What is solid lies behind the surface: half a cell on is the first cell that is mostly
-        # solid, and what is left free before it is, on average, as wide as the room. Of readings
-        # that noise moves to this side of it, one standard deviation more leaves but a few.
-        behind = 0.5 * cell + sigma
+        # Of readings that noise moves to this side of the surface, a standard deviation more
+        # leaves but a few.
+        behind = behind_m + sigma
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
         has_normal = nx != 0 or ny != 0 or nz != 0
-        up = T[2, 0] * nx + T[2, 1] * ny + T[2, 2] * nz
+        slope = up[0] * nx + up[1] * ny + up[2] * nz
         # How high it lies is not moved: what stands on the floor would sink into it.
         height = start[2] + A[2, 0] * x + A[2, 1] * y + A[2, 2] * z
         if not has_normal:
@@ -179,23 +186,41 @@ def _carve(
             start[1] + A[1, 0] * x + A[1, 1] * y + A[1, 2] * z,
             height, lowest, hits.shape,
         )  # fmt: skip
-        if layer == 0 and has_normal and up * up < 0.5:
+        if layer == 0 and has_normal and slope * slope < 0.5:
             continue  # What is steeper than 45 degrees, the foot of a wall, is no floor.
         if layer >= 0 and last[layer, row, column] != stamp + 1:
             last[layer, row, column] = stamp + 1
             hits[layer, row, column] += 1
-    for i in range(first, len(cloud), every):
+
+
+@compiled
+def _pass(
+    A: FloatArray,
+    start: FloatArray,
+    cloud: NDArray[np.float32],
+    cell_m: float,
+    noise: FloatArray,
+    lowest: float,
+    stamp: int,
+    last: NDArray[np.int32],
+    passes: NDArray[np.uint16],
+) -> None:
+    """Count the cells that a keyframe sees through and has not hit, each once.
+
+    Parameters are those of `_hit`; every point is followed from the camera in steps of a cell.
+    """
+    for i in range(len(cloud)):
         x, y, z = cloud[i, 0], cloud[i, 1], cloud[i, 2]
         length = np.sqrt(x * x + y * y + z * z)
-        step = cell / length
+        step = cell_m / length
         dx = step * (A[0, 0] * x + A[0, 1] * y + A[0, 2] * z)
         dy = step * (A[1, 0] * x + A[1, 1] * y + A[1, 2] * z)
         dz = step * (A[2, 0] * x + A[2, 1] * y + A[2, 2] * z)
-        margin = 2 * (noise[0] + noise[1] * z * z) + cell
-        for n in range(int((length - margin) / cell)):
+        margin = 2 * (noise[0] + noise[1] * z * z) + cell_m
+        for n in range(int((length - margin) / cell_m)):
             at = n + 0.5
             layer, row, column = _cell(
-                start[0] + at * dx, start[1] + at * dy, start[2] + at * dz, lowest, hits.shape
+                start[0] + at * dx, start[1] + at * dy, start[2] + at * dz, lowest, passes.shape
             )
             if layer >= 0 and last[layer, row, column] < stamp:
                 last[layer, row, column] = stamp
