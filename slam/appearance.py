@@ -54,20 +54,28 @@ class AppearanceIndex:
         limit = self._limit(descriptors)
         if not len(self._words):
             self._words = descriptors[:1].copy()
-        distance = squared_distances(descriptors, self._words)
+        nearest, distance = _nearest(descriptors, self._words)
+        is_far = distance > limit
         if not grow:
-            return np.asarray(distance.argmin(axis=1)[distance.min(axis=1) <= limit])
-        fresh = descriptors[distance.min(axis=1) > limit]
+            return nearest[~is_far]
+        leaders = self._leaders(descriptors[is_far], limit)
+        if len(leaders):
+            among, other = _nearest(descriptors, leaders)
+            nearest = np.where(other < distance, len(self._words) + among, nearest)
+            self._words = np.vstack([self._words, leaders])
+        return nearest
+
+    def _leaders(self, descriptors: NDArray[Any], limit: float) -> NDArray[Any]:
+        """Return those of the descriptors that lie far from each one chosen before them."""
         room = self.settings.max_words - len(self._words)
-        leaders: list[int] = []
-        between = squared_distances(fresh, fresh) if len(fresh) and room > 0 else np.empty((0, 0))
-        for i in range(len(between)):
-            if len(leaders) < room and (not leaders or between[i, leaders].min() > limit):
+        if not len(descriptors) or room <= 0:
+            return descriptors[:0]
+        between = squared_distances(descriptors, descriptors)
+        leaders = [0]
+        for i in range(1, len(between)):
+            if len(leaders) < room and between[i, leaders].min() > limit:
                 leaders.append(i)
-        if leaders:
-            distance = np.hstack([distance, squared_distances(descriptors, fresh[leaders])])
-            self._words = np.vstack([self._words, fresh[leaders]])
-        return np.asarray(distance.argmin(axis=1))
+        return descriptors[leaders]
 
     def add(self, keyframe: int, words: NDArray[np.intp]) -> None:
         """Remember a keyframe by its words."""
@@ -100,3 +108,12 @@ class AppearanceIndex:
             return float(self.settings.radius * descriptors.shape[1] * 8 / 2) ** 2
         norm = float(np.sqrt((descriptors[0] ** 2).sum()))
         return (self.settings.radius * norm) ** 2
+
+
+def _nearest(
+    descriptors: NDArray[Any], words: NDArray[Any]
+) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
+    """Return the nearest word (N,) of each descriptor, and its squared distance (N,)."""
+    distance = squared_distances(descriptors, words)
+    nearest = distance.argmin(axis=1)
+    return nearest, distance[np.arange(len(nearest)), nearest]
