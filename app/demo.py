@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from app.buildings import building_settings, cached
 from app.config import AppSettings
 from app.console import Terminal
-from app.run_folder import RUN_MARKS, RunFolder, clear_output
+from app.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
 from app.session import Showing, map_sequence
 from app.training import train_model
 from datasets.open import open_sequence
@@ -26,22 +25,22 @@ def run_demo(
     """Run the demonstration; return its run folder and metrics.
 
     Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
-    The place model is kept in the run's folder once the run has ended.
+    The place model is kept in the run's folder.
     """
+    showing.check()
     if output is not None:
         clear_output(output, overwrite, RUN_MARKS)
     known = building_settings(seed=2 * settings.seed)
     strange = building_settings(seed=2 * settings.seed + 1)
     lessons = cached(("day", "night"), known, terminal)
     (strange_floor,) = cached(("day",), strange, terminal)
-    with TemporaryDirectory() as scratch:
-        model = train_model(lessons, Path(scratch) / "model", settings, False, terminal)
+    model = train_model(lessons, settings, terminal)
     terminal.say(
         f"Learned from {sum(model.training['images'].values())} images; "
         f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
         dim=True,
     )
     sequence = open_sequence(strange_floor)
-    folder, metrics = map_sequence(sequence, settings, model, output, False, showing, terminal)
+    folder = make_run_folder(output, sequence.name, overwrite=False)
     save_model(folder.model, model)
-    return folder, metrics
+    return folder, map_sequence(sequence, settings, model, folder, showing, terminal)

@@ -11,6 +11,7 @@ import numpy as np
 
 from app.config import AppSettings
 from app.console import Terminal
+from app.run_folder import make_run_folder
 from app.session import Showing, map_sequence
 from datasets.errors import RoomgraphError
 from datasets.open import open_sequence
@@ -45,10 +46,9 @@ def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -
         raise RoomgraphError("the sequence does not say which rooms it shows", where=root)
     settings = AppSettings(seed=seed)
     with TemporaryDirectory() as scratch:
-        folder, metrics = map_sequence(
-            sequence, settings, model, Path(scratch) / "run", False,
-            Showing(live=False, save=False, report=False), terminal,
-        )  # fmt: skip
+        folder = make_run_folder(Path(scratch) / "run", sequence.name, overwrite=False)
+        nothing = Showing(live=False, save=False, report=False)
+        metrics = map_sequence(sequence, settings, model, folder, nothing, terminal)
         graph, rows = read_graph_json(folder.graph_json), folder.read_frames()
     nodes = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
     frames = [(places.at(float(row["timestamp"])), row["label"]) for row in rows]

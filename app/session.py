@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from threadpoolctl import threadpool_limits
@@ -15,7 +14,7 @@ from app.errors import AppError
 from app.input import InputOptions, write_input
 from app.pipeline import Pipeline
 from app.recorder import Recorder
-from app.run_folder import RunFolder, make_run_folder
+from app.run_folder import RunFolder
 from app.viewer import NoViewer, Viewer
 from datasets.sequence import Sequence
 from semantics.model import PlaceModel
@@ -32,26 +31,27 @@ class Showing:
     save: bool = True
     report: bool = True
 
+    def check(self) -> None:
+        """Raise where it cannot be shown so, before any work is done."""
+        if self.live:
+            from app.rerun_sinks import find_viewer
+
+            find_viewer()
+
 
 def map_sequence(
     sequence: Sequence,
     settings: AppSettings,
     model: PlaceModel | None,
-    output: Path | None,
-    overwrite: bool,
+    folder: RunFolder,
     showing: Showing,
     terminal: Terminal,
     options: InputOptions | None = None,
-) -> tuple[RunFolder, dict[str, Any]]:
-    """Map and label a sequence into a new run folder; return it with the run's metrics.
+) -> dict[str, Any]:
+    """Map and label a sequence into a run's folder; return the run's metrics.
 
     `options` say how the sequence was opened, if otherwise than by its path alone.
     """
-    if showing.live:
-        from app.rerun_sinks import find_viewer
-
-        find_viewer()
-    folder = make_run_folder(output, sequence.name, overwrite)
     with terminal.logging(folder.log):
         settings = with_features_of(model, settings)
         write_settings(folder.config, settings)
@@ -84,7 +84,7 @@ def map_sequence(
             hint="; ".join(map(str, findings))
             or "look at the depth images, and check --depth-scale and --camera",
         )  # fmt: skip
-    return folder, metrics
+    return metrics
 
 
 def _check(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> tuple[Finding, ...]:

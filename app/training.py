@@ -13,7 +13,6 @@ from datasets.errors import DatasetError
 from datasets.open import guess_layout, open_sequence
 from semantics.examples import Example, folder_examples, sequence_examples
 from semantics.model import PlaceModel
-from semantics.model_io import save_model
 from semantics.presets import Preset, preset
 from semantics.training import train
 
@@ -66,15 +65,11 @@ def with_preset(settings: AppSettings, name: str | None) -> AppSettings:
     return settings.model_copy(update={"slam": slam, "semantics": semantics})
 
 
-def train_model(
-    data: Sequence[Path], output: Path, settings: AppSettings, overwrite: bool, terminal: Terminal
-) -> PlaceModel:
-    """Learn a place model from all `data` together and save it."""
+def train_model(data: Sequence[Path], settings: AppSettings, terminal: Terminal) -> PlaceModel:
+    """Learn a place model from all `data` together."""
     examples = [example for root in data for example in labelled_examples(root)]
     with terminal.progress("Learning places") as advance:
-        model = train(
+        return train(
             examples, settings.slam.features, settings.semantics.training, settings.seed,
             lambda done, total: advance(done, total, "images described"),
         )  # fmt: skip
-    save_model(output, model, overwrite)
-    return model

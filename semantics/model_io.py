@@ -38,8 +38,7 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
     SemanticsError
         `path` exists and `overwrite` is false, or it holds something that is not a model.
     """
-    if path.exists():
-        _check_replaceable(path, overwrite)
+    refuse_other(path, overwrite)
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     temporary.mkdir()
@@ -51,6 +50,25 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
         temporary.rename(path)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
+
+
+def refuse_other(path: Path, overwrite: bool) -> None:
+    """Raise where a model may not be written: to be asked before it is learned.
+
+    Raises
+    ------
+    SemanticsError
+        `path` exists and `overwrite` is false, or it holds something that is not a model.
+    """
+    if not path.exists():
+        return
+    if not overwrite:
+        raise SemanticsError("the model exists already", where=path, hint="add --overwrite")
+    if not (path / DOCUMENT).is_file() and (not path.is_dir() or any(path.iterdir())):
+        raise SemanticsError(
+            "refusing to replace what is not a place model", where=path,
+            expected=f"a folder with {DOCUMENT}", hint="choose another output",
+        )  # fmt: skip
 
 
 def load_model(path: Path) -> PlaceModel:
@@ -179,13 +197,3 @@ def _read_arrays(path: Path) -> dict[str, NDArray[Any]]:
             "the model's arrays cannot be read", where=path,
             got=f"{type(error).__name__} {error}", hint="train it again",
         ) from error  # fmt: skip
-
-
-def _check_replaceable(path: Path, overwrite: bool) -> None:
-    if not overwrite:
-        raise SemanticsError("the model exists already", where=path, hint="add --overwrite")
-    if not (path / DOCUMENT).is_file() and (not path.is_dir() or any(path.iterdir())):
-        raise SemanticsError(
-            "refusing to replace what is not a place model", where=path,
-            expected=f"a folder with {DOCUMENT}", hint="choose another output",
-        )  # fmt: skip

@@ -94,12 +94,12 @@ def _correct(
     terminal: Terminal,
 ) -> None:
     from app.correcting import correct_run, describe_correction, learn_from_run, parse_changes
-    from app.run_folder import RunFolder, refuse_existing
-    from semantics.model_io import load_model, save_model
+    from app.run_folder import RunFolder
+    from semantics.model_io import load_model, refuse_other, save_model
 
     changes = parse_changes(texts)
     if output is not None:
-        refuse_existing(output, overwrite)
+        refuse_other(output, overwrite)
     known = load_model(model)
     folder = RunFolder(run)
     corrections = correct_run(folder, changes)

@@ -36,6 +36,7 @@ def run(
     """
     from app.console import Terminal
     from app.report import summary
+    from app.run_folder import make_run_folder
     from app.session import Showing, map_sequence
     from semantics.model_io import load_model
 
@@ -43,10 +44,10 @@ def run(
     settings, source = tuning.load(), opening.of(sequence)
     opened = source.open()
     places = load_model(model) if model is not None else None
-    folder, metrics = map_sequence(
-        opened, settings, places, output, overwrite, Showing(visualize, save_rrd, report), terminal,
-        source,
-    )  # fmt: skip
+    showing = Showing(visualize, save_rrd, report)
+    showing.check()
+    folder = make_run_folder(output, opened.name, overwrite)
+    metrics = map_sequence(opened, settings, places, folder, showing, terminal, source)
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")

@@ -46,11 +46,14 @@ def train(
     from app.config import load_settings
     from app.console import Terminal
     from app.training import train_model, with_preset
+    from semantics.model_io import refuse_other, save_model
 
     terminal = Terminal(quiet, verbose)
     settings = with_preset(load_settings(config, {"seed": seed}), preset)
+    refuse_other(output, overwrite)
     with terminal.logging():
-        model = train_model(data, output, settings, overwrite, terminal)
+        model = train_model(data, settings, terminal)
+    save_model(output, model, overwrite)
     images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())
     terminal.say(f"Learned {len(model.labels) - 1} places from: {images}")
     terminal.say(

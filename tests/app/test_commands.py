@@ -140,6 +140,10 @@ def test_outputs_are_not_overwritten_unasked(mapped, rendered_walk, tmp_path, mo
     (tmp_path / "mine/thesis.tex").write_text("dear to me")
     said = _fails(monkeypatch, capsys, "run", rendered_walk, "-o", tmp_path / "mine", "--overwrite")
     assert "not ours" in said
+    # A model is refused before anything is learned: here there is nothing to learn from.
+    (tmp_path / "empty").mkdir()
+    said = _fails(monkeypatch, capsys, "train", tmp_path / "empty", "-o", tmp_path / "mine")
+    assert "exists already" in said
     assert (tmp_path / "mine/thesis.tex").exists()
 
 
