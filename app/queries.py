@@ -12,8 +12,9 @@ from app.errors import AppError
 from app.input import InputOptions
 from datasets.camera import Camera, read_camera
 from datasets.frame import Frame
-from datasets.images import IMAGE_SUFFIXES, read_colour, read_depth, undistort
+from datasets.images import IMAGE_SUFFIXES, read_colour, read_depth
 from datasets.open import READERS
+from datasets.registration import rectify
 
 # Of images without time stamps.
 _FRAME_RATE_HZ = 30.0
@@ -79,19 +80,12 @@ def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Ite
     for index, path in enumerate(files):
         colour = read_colour(path)
         fitted = _fitted(camera, colour.shape[1], colour.shape[0], path)
-        readings = (
-            read_depth(depth, camera.depth_scale)
-            if depth is not None
-            else np.zeros(colour.shape[:2], dtype=np.float32)
-        )
-        if readings.shape != colour.shape[:2]:
-            raise AppError(
-                "depth of another size than the image", where=depth or path,
-                expected=f"{colour.shape[1]}x{colour.shape[0]}",
-                got=f"{readings.shape[1]}x{readings.shape[0]}",
-            )  # fmt: skip
-        colour, readings = undistort(colour, readings, fitted.intrinsics)
-        pinhole = replace(fitted.intrinsics, distortion=())
+        if depth is not None:
+            readings = read_depth(depth, camera.depth_scale)
+        else:
+            fitted = replace(fitted, depth=None)
+            readings = np.zeros(colour.shape[:2], dtype=np.float32)
+        colour, readings, pinhole = rectify(colour, readings, fitted, depth or path)
         yield Query(str(path), Frame(index, index / _FRAME_RATE_HZ, colour, readings, pinhole))
 
 
@@ -105,8 +99,4 @@ def _fitted(camera: Camera, width: int, height: int, path: Path) -> Camera:
             expected=f"{known.width}x{known.height} or a multiple of it", got=f"{width}x{height}",
             hint="name the camera it was taken with: --camera FILE.json",
         )  # fmt: skip
-    intrinsics = replace(
-        known, width=width, height=height, fx=known.fx * scale, fy=known.fy * scale,
-        cx=(known.cx + 0.5) * scale - 0.5, cy=(known.cy + 0.5) * scale - 0.5,
-    )  # fmt: skip
-    return replace(camera, intrinsics=intrinsics)
+    return replace(camera, intrinsics=known.resized(width, height))

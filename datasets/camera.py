@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,8 @@ TUM_CALIBRATIONS: dict[str, tuple[float, ...]] = {
 }
 DEFAULT_CALIBRATION: tuple[float, ...] = (525.0, 525.0, 319.5, 239.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 TUM_DEPTH_SCALE = 5000.0
+# Between two cameras of one rig, metres: a number beyond is in another unit.
+FARTHEST_M = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +61,14 @@ class Intrinsics:
         """Whether the lens distortion is other than zero."""
         return any(self.distortion)
 
+    def resized(self, width: int, height: int) -> Intrinsics:
+        """Return the camera whose images are this one's at another size."""
+        across, down = width / self.width, height / self.height
+        return replace(
+            self, width=width, height=height, fx=self.fx * across, fy=self.fy * down,
+            cx=(self.cx + 0.5) * across - 0.5, cy=(self.cy + 0.5) * down - 0.5,
+        )  # fmt: skip
+
     def project(self, points_camera: NDArray[np.floating]) -> NDArray[np.float64]:
         """Project points (N, 3) in the camera frame, z > 0, to pixels (N, 2)."""
         xy = points_camera[:, :2] / points_camera[:, 2:3]
@@ -72,13 +82,25 @@ class Intrinsics:
         return np.column_stack([rays * depth_m[:, None], depth_m]).astype(np.float64)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class DepthCamera:
+    """A depth camera beside the colour camera, and the motion (4, 4) from it to that one."""
+
+    intrinsics: Intrinsics
+    T_colour_depth: NDArray[np.float64]
+
+
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """Intrinsics with the raw depth units per metre, and where both come from."""
+    """Intrinsics with the raw depth units per metre, and where both come from.
+
+    `depth` is the camera of depth images that do not lie on the colour images; None if they do.
+    """
 
     intrinsics: Intrinsics
     depth_scale: float
     origin: str
+    depth: DepthCamera | None = None
 
 
 def read_camera(path: Path) -> Camera:
@@ -88,6 +110,10 @@ def read_camera(path: Path) -> Camera:
     Open3D's: ``width height intrinsic_matrix`` (column-major, nine numbers). A missing depth
     scale is 1000 (millimetres).
 
+    Either may hold ``depth``, the camera of depth images that are not registered to the colour:
+    in the same form, with ``T_colour_depth`` (4, 4), metres. Without a motion both look from the
+    same point; without a focal length the depth camera sees what the colour camera sees.
+
     Raises
     ------
     DatasetError
@@ -95,15 +121,8 @@ def read_camera(path: Path) -> Camera:
     """
     try:
         values: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        if "intrinsic_matrix" in values:
-            fx, _, _, _, fy, _, cx, cy, _ = (float(v) for v in values["intrinsic_matrix"])
-        else:
-            fx, fy, cx, cy = (float(values[k]) for k in ("fx", "fy", "cx", "cy"))
-        intrinsics = Intrinsics(
-            int(values["width"]), int(values["height"]), fx, fy, cx, cy,
-            tuple(float(v) for v in values.get("distortion", ())),
-        )  # fmt: skip
-        scale = float(values.get("depth_scale", 1000.0))
+        intrinsics, scale = _intrinsics(values), float(values.get("depth_scale", 1000.0))
+        depth = _depth_camera(values["depth"], intrinsics) if "depth" in values else None
     except OSError as error:
         raise DatasetError(
             "camera file cannot be read", where=path, hint="name one with --camera FILE.json"
@@ -114,19 +133,62 @@ def read_camera(path: Path) -> Camera:
             expected="JSON with width, height, fx, fy, cx, cy [, depth_scale], or Open3D's form",
             got=f"{type(error).__name__} {error}",
         ) from error  # fmt: skip
-    lens = intrinsics.distortion
-    if not np.all(np.isfinite([fx, fy, cx, cy, scale, *lens])) or len(lens) not in (0, 4, 5, 8):
+    for camera in (intrinsics, depth.intrinsics) if depth else (intrinsics,):
+        _check(camera, scale, path)
+    if depth is not None and not _is_motion(depth.T_colour_depth):
+        raise DatasetError(
+            "camera file has a motion that cannot be", where=path,
+            expected=f"T_colour_depth of 4 x 4 numbers: a rotation, and at most {FARTHEST_M:g} m",
+            got=str(depth.T_colour_depth.tolist()), hint="its last column is in metres",
+        )  # fmt: skip
+    return Camera(intrinsics, scale, str(path), depth)
+
+
+def _intrinsics(values: dict[str, Any]) -> Intrinsics:
+    if "intrinsic_matrix" in values:
+        fx, _, _, _, fy, _, cx, cy, _ = (float(v) for v in values["intrinsic_matrix"])
+    else:
+        fx, fy, cx, cy = (float(values[k]) for k in ("fx", "fy", "cx", "cy"))
+    return Intrinsics(
+        int(values["width"]), int(values["height"]), fx, fy, cx, cy,
+        tuple(float(v) for v in values.get("distortion", ())),
+    )  # fmt: skip
+
+
+def _depth_camera(values: dict[str, Any], colour: Intrinsics) -> DepthCamera:
+    if "fx" in values or "intrinsic_matrix" in values:
+        intrinsics = _intrinsics(values)
+    else:
+        same = replace(colour, distortion=())
+        intrinsics = same.resized(int(values["width"]), int(values["height"]))
+    return DepthCamera(intrinsics, np.array(values.get("T_colour_depth", np.eye(4)), np.float64))
+
+
+def _check(camera: Intrinsics, scale: float, path: Path) -> None:
+    """Raise where a camera has a value that cannot be."""
+    numbers = *camera.parameters, scale, *camera.distortion
+    if not np.all(np.isfinite(numbers)) or len(camera.distortion) not in (0, 4, 5, 8):
         raise DatasetError(
             "camera file has a value that cannot be", where=path,
-            expected="finite numbers, and 4, 5 or 8 of them for distortion", got=str(values),
+            expected="finite numbers, and 4, 5 or 8 of them for distortion",
+            got=", ".join(f"{number:g}" for number in numbers),
         )  # fmt: skip
-    if min(fx, fy, scale, intrinsics.width, intrinsics.height) <= 0:
+    positive = camera.width, camera.height, camera.fx, camera.fy, scale
+    if min(positive) <= 0:
         raise DatasetError(
             "camera file has a value that must be positive", where=path,
             expected="width, height, fx, fy, depth_scale > 0",
-            got=f"{intrinsics.width}, {intrinsics.height}, {fx:g}, {fy:g}, {scale:g}",
+            got=", ".join(f"{number:g}" for number in positive),
         )  # fmt: skip
-    return Camera(intrinsics, scale, str(path))
+
+
+def _is_motion(T: NDArray[np.float64]) -> bool:
+    """Whether a matrix is a motion from one camera of a rig to another."""
+    if T.shape != (4, 4) or not np.all(np.isfinite(T)) or not np.array_equal(T[3], [0, 0, 0, 1]):
+        return False
+    R = T[:3, :3]
+    is_rotation = np.allclose(R @ R.T, np.eye(3), atol=1e-3) and np.linalg.det(R) > 0
+    return bool(is_rotation and np.linalg.norm(T[:3, 3]) <= FARTHEST_M)
 
 
 def write_camera(path: Path, intrinsics: Intrinsics, depth_scale: float) -> None:

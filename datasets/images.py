@@ -62,26 +62,35 @@ def read_depth(
     return depth
 
 
-def undistort(
-    colour: NDArray[np.uint8], depth: NDArray[np.float32], intrinsics: Intrinsics
-) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """Undistort colour (bilinear) and the depth registered to it (nearest, holes stay holes)."""
-    if not intrinsics.is_distorted:
-        return colour, depth
-    x, y = _undistortion_maps(intrinsics)
-    flat_colour = cv2.remap(colour, x, y, cv2.INTER_LINEAR)
-    flat_depth = cv2.remap(depth, x, y, cv2.INTER_NEAREST)
-    return np.asarray(flat_colour, dtype=np.uint8), np.asarray(flat_depth, dtype=np.float32)
+def undistort_colour(colour: NDArray[np.uint8], camera: Intrinsics) -> NDArray[np.uint8]:
+    """Return an image (H, W, 3) as a camera without distortion sees it."""
+    if not camera.is_distorted:
+        return colour
+    x, y = _undistortion_maps(camera)
+    return np.asarray(cv2.remap(colour, x, y, cv2.INTER_LINEAR), dtype=np.uint8)
 
 
-def check_size(image: NDArray[np.generic], intrinsics: Intrinsics, path: Path) -> None:
+def undistort_depth(depth: NDArray[np.float32], camera: Intrinsics) -> NDArray[np.float32]:
+    """Return depth (H, W) as a camera without distortion sees it; holes stay holes."""
+    if not camera.is_distorted:
+        return depth
+    x, y = _undistortion_maps(camera)
+    return np.asarray(cv2.remap(depth, x, y, cv2.INTER_NEAREST), dtype=np.float32)
+
+
+def check_size(
+    image: NDArray[np.generic],
+    intrinsics: Intrinsics,
+    path: Path,
+    hint: str = "give the right camera with --camera FILE.json",
+) -> None:
     """Raise DatasetError where an image's size is not the camera's."""
     height, width = image.shape[:2]
     if (width, height) != (intrinsics.width, intrinsics.height):
         raise DatasetError(
             "image size differs from the camera's", where=path,
             expected=f"{intrinsics.width}x{intrinsics.height}", got=f"{width}x{height}",
-            hint="give the right camera with --camera FILE.json",
+            hint=hint,
         )  # fmt: skip
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, get_args
 
+import numpy as np
+
 from datasets.camera import Camera, read_camera
 from datasets.errors import DatasetError
 from datasets.folder import is_folder, open_folder
@@ -63,6 +65,15 @@ def open_sequence(
         )  # fmt: skip
     reader = READERS[layout or guess_layout(root)]
     sequence = reader.open(root, read_camera(camera) if camera else None)
+    depth = sequence.camera.depth
+    if depth is not None:
+        beside_mm = 1000 * np.linalg.norm(depth.T_colour_depth[:3, 3])
+        note = (
+            f"depth comes from a camera of its own, {depth.intrinsics.width}x"
+            f"{depth.intrinsics.height}, fx {depth.intrinsics.fx:g}, {beside_mm:.0f} mm beside "
+            "the colour camera; it is registered to that"
+        )
+        sequence = replace(sequence, notes=(*sequence.notes, note))
     if depth_scale is not None:
         sequence = replace(sequence, camera=replace(sequence.camera, depth_scale=depth_scale))
     return sequence

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from datasets.camera import Camera
 from datasets.errors import DatasetError
 from datasets.frame import Frame
-from datasets.images import check_size, read_colour, read_depth, undistort
+from datasets.images import check_size, read_colour, read_depth
 from datasets.places import PlaceTruth, read_places
+from datasets.registration import rectify
 from datasets.trajectory import Trajectory
 
 
@@ -49,13 +50,10 @@ class RecordedSequence:
         return len(self.stamps)
 
     def __getitem__(self, index: int) -> Frame:
-        intrinsics = self.camera.intrinsics
         colour = read_colour(self.colour_files[index])
         depth = read_depth(self.depth_files[index], self.camera.depth_scale)
-        check_size(colour, intrinsics, self.colour_files[index])
-        check_size(depth, intrinsics, self.depth_files[index])
-        colour, depth = undistort(colour, depth, intrinsics)
-        pinhole = replace(intrinsics, distortion=())
+        check_size(colour, self.camera.intrinsics, self.colour_files[index])
+        colour, depth, pinhole = rectify(colour, depth, self.camera, self.depth_files[index])
         return Frame(index, float(self.stamps[index]), colour, depth, pinhole)
 
 

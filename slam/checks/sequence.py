@@ -176,5 +176,6 @@ def _unregistered(misplaced: Misplaced) -> Finding:
         "registration",
         "depth does not lie on colour: its outlines fit when "
         f"{scaled}shifted by ({alignment.dx:+.0f}, {alignment.dy:+.0f}) pixels",
-        "register the depth to the colour camera when recording (align depth to colour)",
+        "register the depth to the colour camera when recording (align depth to colour), or "
+        'describe the camera that the depth comes from as "depth" in the camera file',
     )

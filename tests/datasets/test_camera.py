@@ -41,6 +41,42 @@ def test_bad_camera_file_is_named(tmp_path, text):
         read_camera(path)
 
 
+def test_a_depth_camera_of_its_own(tmp_path):
+    path = tmp_path / "camera.json"
+    values = {"width": 640, "height": 480, "fx": 520, "fy": 521, "cx": 319.5, "cy": 239.5}
+    assert _read(path, values).depth is None
+    # A motion is not needed, nor a focal length where both cameras see the same.
+    small = _read(path, values | {"depth": {"width": 320, "height": 240}}).depth
+    assert small.intrinsics == Intrinsics(320, 240, 260, 260.5, 159.5, 119.5)
+    assert np.array_equal(small.T_colour_depth, np.eye(4))
+    T = np.eye(4)
+    T[0, 3] = 0.025
+    other = values | {"fx": 585, "T_colour_depth": T.tolist()}
+    read = _read(path, values | {"depth": other}).depth
+    assert (read.intrinsics.fx, read.T_colour_depth[0, 3]) == (585, 0.025)
+
+
+@pytest.mark.parametrize(
+    ("T", "said"),
+    [
+        (np.diag([1.0, 1, 1, 25]).tolist(), "motion"),
+        ([[1, 0, 0, 25.0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "metres"),
+        ([[0, 1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "rotation"),
+        ([1, 2], "4 x 4"),
+        ("near", "not understood"),
+    ],
+)
+def test_a_motion_between_cameras_that_cannot_be(tmp_path, T, said):
+    values = {"width": 640, "height": 480, "fx": 520, "fy": 521, "cx": 319.5, "cy": 239.5}
+    with pytest.raises(DatasetError, match=said):
+        _read(tmp_path / "camera.json", values | {"depth": values | {"T_colour_depth": T}})
+
+
+def _read(path, values):
+    path.write_text(json.dumps(values))
+    return read_camera(path)
+
+
 def test_missing_camera_file_says_what_to_do(tmp_path):
     with pytest.raises(DatasetError, match="--camera"):
         read_camera(tmp_path / "none.json")

@@ -7,7 +7,7 @@ import pytest
 from datasets.association import associate, typical_offset
 from datasets.camera import Intrinsics, write_camera
 from datasets.errors import DatasetError
-from datasets.images import read_colour, read_depth, undistort
+from datasets.images import read_colour, read_depth, undistort_colour, undistort_depth
 from datasets.open import guess_layout, open_sequence
 from datasets.sequence import Sequence, frames_of, select
 
@@ -147,10 +147,23 @@ def test_undistortion_moves_depth_with_colour():
     depth = np.zeros((HEIGHT, WIDTH), np.float32)
     colour[2:5, 3:6] = 255
     depth[2:5, 3:6] = 1
-    flat_colour, flat_depth = undistort(colour, depth, camera)
+    flat_colour, flat_depth = undistort_colour(colour, camera), undistort_depth(depth, camera)
     centre = np.argwhere(flat_colour[..., 0] > 127).mean(axis=0)
     assert np.linalg.norm(centre - (3, 4)) > 0.5
     assert np.linalg.norm(centre - np.argwhere(flat_depth > 0).mean(axis=0)) < 0.75
+
+
+def test_depth_of_a_camera_of_its_own_is_laid_on_the_colour(folder):
+    own = {"width": WIDTH // 2, "height": HEIGHT // 2}
+    camera = json.loads((folder / "camera.json").read_text()) | {"depth": own}
+    (folder / "camera.json").write_text(json.dumps(camera))
+    with pytest.raises(DatasetError, match=r"16x12.*32x24"):
+        open_sequence(folder)[0]
+    for path in (folder / "depth").iterdir():
+        cv2.imwrite(str(path), np.full((HEIGHT // 2, WIDTH // 2), 2000, np.uint16))
+    sequence = open_sequence(folder)
+    assert np.allclose(sequence[0].depth, 2)
+    assert any("registered" in note for note in sequence.notes)
 
 
 @pytest.mark.parametrize("suffix", ["png", "jpg"])
