@@ -88,7 +88,7 @@ def bench_once(job: BenchJob) -> BenchRun:
     from app.pipeline import Pipeline
     from app.recorder import Recorder
     from app.run_folder import RunFolder
-    from app.session import with_features_of
+    from app.session import examined, with_features_of
     from app.viewer import NoViewer
     from datasets.laps import Laps
     from datasets.sequence import Sequence
@@ -99,6 +99,7 @@ def bench_once(job: BenchJob) -> BenchRun:
         sequence = Laps(sequence, job.laps)
     model = load_model(job.model) if job.model is not None else None
     settings = with_features_of(model, job.settings)
+    sequence = examined(sequence, settings).sequence
     with TemporaryDirectory() as scratch:
         folder, watch = RunFolder(Path(scratch)), _Watch()
         pipeline = Pipeline(sequence, settings, model, Recorder(folder), NoViewer(), watch)

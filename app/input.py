@@ -70,11 +70,15 @@ def open_input(
 
 
 def write_input(path: Path, options: InputOptions) -> None:
-    """Write options as TOML, paths in full, so that the sequence is found from anywhere."""
+    """Write options as TOML, paths in full, so that the sequence is found from anywhere.
+
+    What lies beside `path` is only named, so that the folder may be moved.
+    """
     values = options.model_dump(mode="json", exclude_none=True)
     for name in ("sequence", "camera"):
         if name in values:
-            values[name] = str(Path(values[name]).resolve())
+            place = Path(values[name]).resolve()
+            values[name] = place.name if place.parent == path.resolve().parent else str(place)
     write_text(path, tomli_w.dumps(values))
 
 
@@ -87,9 +91,13 @@ def read_input(path: Path) -> InputOptions:
         The file cannot be read or does not hold such options.
     """
     try:
-        return InputOptions.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
+        options = InputOptions.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ValidationError) as error:
         raise AppError(
             "input options cannot be read", where=path, expected="what `roomgraph run` writes",
             got=str(error).splitlines()[0],
         ) from error  # fmt: skip
+    beside = {"sequence": path.parent / options.sequence}
+    if options.camera is not None:
+        beside["camera"] = path.parent / options.camera
+    return options.model_copy(update=beside)

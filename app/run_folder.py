@@ -118,6 +118,11 @@ class RunFolder:
         return self.root / "input.toml"
 
     @property
+    def camera(self) -> Path:
+        """The camera as the data mended it; only where that was needed."""
+        return self.root / "camera.json"
+
+    @property
     def log(self) -> Path:
         """What was logged."""
         return self.root / "run.log"

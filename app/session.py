@@ -16,9 +16,10 @@ from app.pipeline import Pipeline
 from app.recorder import Recorder
 from app.run_folder import RunFolder
 from app.viewer import NoViewer, Viewer
+from datasets.camera import Camera, write_camera
 from datasets.sequence import Sequence
 from semantics.model import PlaceModel
-from slam.checks import Finding, check_sequence
+from slam.checks import Examination, examine
 
 logger = logging.getLogger(__name__)
 
@@ -55,17 +56,21 @@ def map_sequence(
     with terminal.logging(folder.log):
         settings = with_features_of(model, settings)
         write_settings(folder.config, settings)
-        write_input(folder.input, options or InputOptions(sequence=sequence.root))
+        options = options or InputOptions(sequence=sequence.root)
+        write_input(folder.input, options)
         logger.info("sequence %s, %d frames", sequence.root, len(sequence))
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(note, dim=True)
         viewer = _viewer(folder, settings, showing)  # is made while the data is looked at
-        findings = _check(sequence, settings, terminal)
+        found = _examine(sequence, settings, terminal)
+        if found.sequence is not sequence:
+            sequence = found.sequence
+            _keep_camera(sequence.camera, folder, options, terminal)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(
                 sequence, settings, model, Recorder(folder), viewer, advance,
-                warnings=map(str, findings),
+                warnings=map(str, found.findings),
             )  # fmt: skip
             try:
                 metrics = pipeline.run()
@@ -81,24 +86,41 @@ def map_sequence(
     if not metrics["frames_tracked"]:
         raise AppError(
             "no frame could be tracked", where=sequence.root, expected="colour with its depth",
-            hint="; ".join(map(str, findings))
+            hint="; ".join(map(str, found.findings))
             or "look at the depth images, and check --depth-scale and --camera",
         )  # fmt: skip
     return metrics
 
 
-def _check(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> tuple[Finding, ...]:
-    """Look at the data before a run, and say what cannot be right."""
+def examined(sequence: Sequence, settings: AppSettings) -> Examination:
+    """Look at the data before a run, and mend what can be mended."""
     if not settings.checks.enabled:
-        return ()
-    words = "Looking at the data (a first run also compiles: some seconds)"
+        return Examination(sequence, ())
     # The matrices are small: BLAS threads would only get in the way of the checks' own.
-    with terminal.working(words), threadpool_limits(1, user_api="blas"):
-        findings = check_sequence(sequence, settings.checks)
-    for finding in findings:
+    with threadpool_limits(1, user_api="blas"):
+        return examine(sequence, settings.checks)
+
+
+def _examine(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> Examination:
+    """Look at the data and say what cannot be right."""
+    with terminal.working("Looking at the data (a first run also compiles: some seconds)"):
+        found = examined(sequence, settings)
+    for finding in found.findings:
         logger.warning("%s: %s", finding.kind, finding)
         terminal.warn(str(finding))
-    return findings
+    return found
+
+
+def _keep_camera(
+    camera: Camera, folder: RunFolder, options: InputOptions, terminal: Terminal
+) -> None:
+    """Write the camera that was mended, so that all who open the run's sequence again use it."""
+    write_camera(folder.camera, camera.intrinsics, camera.depth_scale, camera.depth)
+    mended = {"camera": folder.camera, "depth_scale": None}
+    write_input(folder.input, options.model_copy(update=mended))
+    say = f"the camera as mended is kept: --camera {folder.camera} takes it for other sequences"
+    logger.info("%s", say)
+    terminal.say(say, dim=True)
 
 
 def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -191,16 +191,22 @@ def _is_motion(T: NDArray[np.float64]) -> bool:
     return bool(is_rotation and np.linalg.norm(T[:3, 3]) <= FARTHEST_M)
 
 
-def write_camera(path: Path, intrinsics: Intrinsics, depth_scale: float) -> None:
+def write_camera(
+    path: Path, intrinsics: Intrinsics, depth_scale: float, depth: DepthCamera | None = None
+) -> None:
     """Write a camera in the form that `read_camera` reads."""
-    values: dict[str, Any] = {
-        "width": intrinsics.width, "height": intrinsics.height,
-        "fx": intrinsics.fx, "fy": intrinsics.fy, "cx": intrinsics.cx, "cy": intrinsics.cy,
-        "depth_scale": depth_scale,
-    }  # fmt: skip
-    if intrinsics.is_distorted:
-        values["distortion"] = list(intrinsics.distortion)
+    values = _values(intrinsics) | {"depth_scale": depth_scale}
+    if depth is not None:
+        motion = {"T_colour_depth": depth.T_colour_depth.tolist()}
+        values["depth"] = _values(depth.intrinsics) | motion
     path.write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
+
+
+def _values(intrinsics: Intrinsics) -> dict[str, Any]:
+    values = asdict(intrinsics)
+    if not intrinsics.is_distorted:
+        del values["distortion"]
+    return values
 
 
 def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:

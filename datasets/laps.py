@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from datasets.camera import Camera
 from datasets.frame import Frame
 from datasets.sequence import Selection, Sequence
 from datasets.trajectory import Trajectory
@@ -31,6 +32,7 @@ class Laps:
     """
 
     def __init__(self, source: Sequence, laps: int) -> None:
+        self._source, self._laps = source, laps
         there = np.arange(len(source))
         lap = np.concatenate([there, there[-2:0:-1]])
         indices = np.tile(lap, laps)
@@ -54,6 +56,10 @@ class Laps:
 
     def __getitem__(self, index: int) -> Frame:
         return replace(self._frames[index], stamp_s=float(self._stamps_s[index]))
+
+    def with_camera(self, camera: Camera) -> Laps:
+        """Return the same laps, taken by another camera."""
+        return Laps(self._source.with_camera(camera), self._laps)
 
 
 def _running(stamps_s: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +55,10 @@ class RecordedSequence:
         check_size(colour, self.camera.intrinsics, self.colour_files[index])
         colour, depth, pinhole = rectify(colour, depth, self.camera, self.depth_files[index])
         return Frame(index, float(self.stamps[index]), colour, depth, pinhole)
+
+    def with_camera(self, camera: Camera) -> RecordedSequence:
+        """Return the same files, taken by another camera."""
+        return replace(self, camera=camera)
 
 
 def places_beside(root: Path) -> PlaceTruth | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
@@ -65,6 +65,10 @@ class Sequence(Protocol):
         """
         ...
 
+    def with_camera(self, camera: Camera) -> Sequence:
+        """Return the same images as another camera would have taken them."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class Selection:
@@ -90,6 +94,10 @@ class Selection:
     def __getitem__(self, index: int) -> Frame:
         frame = self.source[self.indices[index]]
         return Frame(index, frame.stamp_s, frame.colour, frame.depth, frame.intrinsics)
+
+    def with_camera(self, camera: Camera) -> Selection:
+        """Return the same part, taken by another camera."""
+        return replace(self, source=self.source.with_camera(camera), camera=camera)
 
 
 def select(

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from datasets import poses
-from datasets.camera import Intrinsics
+from datasets.camera import Camera, Intrinsics
 from datasets.frame import Frame
 from datasets.settings import Settings
 from slam.checks.finding import Finding
+from slam.checks.remedies import refocused
 from slam.features import FeatureExtractor, FeatureSettings
 from slam.matching import match
 from slam.motion import Correspondences, MotionSettings, estimate_motion
@@ -109,7 +110,7 @@ def pair_of(first: Frame, others: Iterable[Frame], settings: CalibrationSettings
 
 
 def find_wrong_focal(
-    pairs: Sequence[Pair], settings: CalibrationSettings, noise: SensorNoise
+    pairs: Sequence[Pair], given: Camera, settings: CalibrationSettings, noise: SensorNoise
 ) -> Finding | None:
     """Judge focal lengths by whether points of one frame lie rigidly in another.
 
@@ -120,19 +121,29 @@ def find_wrong_focal(
     found, camera = measure_focal(pairs, settings, noise), pairs[0].camera
     if found is None:
         return None
-    off = np.abs(np.log([found.fx / camera.fx, found.fy / camera.fy]))
+    off = np.log([found.fx / camera.fx, found.fy / camera.fy])
     # Beyond the tolerance, the standard error itself is no more than a guess: too much is bent.
     known = found.sigma < settings.tolerance / 2
-    if not np.any(known & (off > settings.tolerance) & (off > settings.min_sigmas * found.sigma)):
+    sure = np.abs(off) > np.maximum(settings.tolerance, settings.min_sigmas * found.sigma)
+    if not np.any(known & sure):
         return None
+    # A camera that turns about one axis tells one of the two: pixels keep their given shape.
+    off = np.where(known, off, off[np.argmin(found.sigma)])
+    fx, fy = np.array([camera.fx, camera.fy]) * np.exp(off)
     observed = (
-        f"points move rigidly under fx {found.fx:.0f}, fy {found.fy:.0f} "
+        f"points move rigidly under fx {fx:.0f}, fy {fy:.0f} "
         f"rather than under the given fx {camera.fx:g}, fy {camera.fy:g}"
     )
-    swapped = np.abs(np.log([found.fx / camera.fy, found.fy / camera.fx]))
-    if known.all() and swapped.max() < min(settings.tolerance, 0.5 * off.max()):
-        return Finding("intrinsics", observed, "fx and fy look swapped: check the camera file")
-    return Finding("intrinsics", observed, "check fx and fy in the camera file (--camera)")
+    swapped = np.abs(np.log([fx / camera.fy, fy / camera.fx])).max()
+    if known.all() and swapped < min(settings.tolerance, 0.5 * np.abs(off).max()):
+        return Finding(
+            "intrinsics", observed, "fx and fy look swapped: check the camera file",
+            refocused(given, camera.fy, camera.fx),
+        )  # fmt: skip
+    return Finding(
+        "intrinsics", observed, "check fx and fy in the camera file (--camera)",
+        refocused(given, fx, fy),
+    )  # fmt: skip
 
 
 def measure_focal(

@@ -5,7 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from datasets.camera import Camera
+
 Kind = Literal["depth scale", "intrinsics", "registration", "time offset"]
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """A camera under which a contradiction should be gone, and words for what it changes."""
+
+    camera: Camera
+    words: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,11 +30,14 @@ class Finding:
         What was seen, with its figures.
     suggestion : str
         What to do about it.
+    remedy : Remedy or None
+        What would mend it, where the data says so.
     """
 
     kind: Kind
     observed: str
     suggestion: str
+    remedy: Remedy | None = None
 
     def __str__(self) -> str:
         return f"{self.observed}; {self.suggestion}"

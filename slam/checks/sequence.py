@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from datasets.camera import Camera
 from datasets.errors import DatasetError
 from datasets.frame import Frame
 from datasets.sequence import Sequence
@@ -20,6 +21,7 @@ from slam.checks.edges import Outlines, outlines
 from slam.checks.finding import Finding
 from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
 from slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
+from slam.checks.remedies import registered
 from slam.noise import SensorNoise
 
 # Of each frame, every so manieth row and column goes into the statistics of depth.
@@ -38,6 +40,11 @@ class CheckSettings(Settings):
     """What is looked at before a run to see that the data can be right."""
 
     enabled: bool = Field(True, description="look at the data before a run and warn")
+    mend: bool = Field(
+        True,
+        description="mend the camera where the data says how: lay depth on colour where it lies "
+        "beside it, take focal lengths that points move rigidly under",
+    )
     windows: int = Field(10, ge=1, le=100, description="stretches of successive frames looked at")
     window: int = Field(8, ge=1, le=100, description="frames in each")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
@@ -104,7 +111,7 @@ def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
         known = [pair for pair in pool.map(look, windows) if pair is not None]
     if not known:
         return []
-    finding = find_wrong_focal(known, settings.calibration, SensorNoise())
+    finding = find_wrong_focal(known, sequence.camera, settings.calibration, SensorNoise())
     return [] if finding is None else [finding]
 
 
@@ -153,7 +160,7 @@ def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings
         return [_late(delay, sequence)]
     step = spread[0][0].step
     later = find_delay(evidence.windows, settings.delay, misplaced.alignment.resized(1 / step))
-    found = [_unregistered(misplaced)]
+    found = [_unregistered(misplaced, sequence.camera)]
     return found if later is None else [*found, _late(later, sequence)]
 
 
@@ -169,7 +176,7 @@ def _late(delay: Delay, sequence: Sequence) -> Finding:
     )
 
 
-def _unregistered(misplaced: Misplaced) -> Finding:
+def _unregistered(misplaced: Misplaced, camera: Camera) -> Finding:
     alignment = misplaced.alignment
     scaled = f"scaled by {alignment.scale:.2f} and " if abs(alignment.scale - 1) >= 0.01 else ""
     return Finding(
@@ -178,4 +185,5 @@ def _unregistered(misplaced: Misplaced) -> Finding:
         f"{scaled}shifted by ({alignment.dx:+.0f}, {alignment.dy:+.0f}) pixels",
         "register the depth to the colour camera when recording (align depth to colour), or "
         'describe the camera that the depth comes from as "depth" in the camera file',
+        registered(camera, alignment),
     )

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from datasets import poses
-from datasets.camera import Intrinsics
+from datasets.camera import Camera, Intrinsics
 from datasets.errors import DatasetError
-from slam.checks import CheckSettings, check_sequence
+from datasets.registration import register
+from slam.checks import CheckSettings, check_sequence, examine
 from slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, measure_focal
 from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
 from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
@@ -44,7 +45,17 @@ class Bent:
 
     def __getitem__(self, index):
         frame = self.source[index]
-        return frame if self.change is None else self.change(frame, index)
+        frame = frame if self.change is None else self.change(frame, index)
+        if self.new_camera is None:
+            return frame
+        camera = self.new_camera
+        depth = frame.depth
+        if camera.depth is not None:
+            depth = register(depth, camera.depth, camera.intrinsics)
+        return replace(frame, depth=depth, intrinsics=camera.intrinsics)
+
+    def with_camera(self, camera):
+        return replace(self, new_camera=camera)
 
 
 def check(sequence, change=None, camera=None):
@@ -91,6 +102,58 @@ def test_unregistered_depth_is_measured(rendered_sequence, dx, dy, scale):
         finding.observed.split("scaled by ")[1].split()[0] if "scaled" in finding.observed else 1
     )
     assert np.isclose(float(found), 1 / scale, atol=0.03)
+
+
+def agreement(sequence, truth):
+    """Return the share of readings that are within 5 % of the true ones."""
+    shares = []
+    for index in range(0, len(truth), 10):
+        depth, true = sequence[index].depth, truth[index].depth
+        both = (depth > 0) & (true > 0)
+        shares.append(np.mean(np.abs(depth - true)[both] < 0.05 * true[both]))
+    return float(np.mean(shares))
+
+
+@pytest.mark.parametrize(("dx", "dy", "scale"), [(10, 0, 1), (-15, 6, 1), (6, 2, 1.1)])
+def test_unregistered_depth_is_laid_on_colour(rendered_sequence, dx, dy, scale):
+    wrong = Bent(rendered_sequence, moved(dx, dy, scale))
+    found = examine(wrong, CheckSettings())
+    (finding,) = found.findings
+    assert finding.kind == "registration"
+    assert "it is laid there" in finding.suggestion
+    before, after = (agreement(sequence, rendered_sequence) for sequence in (wrong, found.sequence))
+    assert 1 - after < 0.25 * (1 - before)
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.2])
+def test_wrong_focal_lengths_are_replaced(rendered_sequence, factor):
+    true = rendered_sequence.camera
+    given = replace(true.intrinsics, fx=factor * true.intrinsics.fx, fy=factor * true.intrinsics.fy)
+    wrong = Bent(rendered_sequence, None, replace(true, intrinsics=given))
+    found = examine(wrong, CheckSettings())
+    (finding,) = found.findings
+    assert "are taken" in finding.suggestion
+    taken = found.sequence.camera.intrinsics
+    assert np.allclose([taken.fx, taken.fy], [true.intrinsics.fx, true.intrinsics.fy], rtol=0.04)
+
+
+def test_what_a_remedy_does_not_cure_stays_as_it_was(rendered_sequence):
+    class Stubborn(Bent):
+        def with_camera(self, camera):
+            return self
+
+    wrong = Stubborn(rendered_sequence, moved(10, 0))
+    found = examine(wrong, CheckSettings())
+    assert found.sequence is wrong
+    assert list(map(str, found.findings)) == list(map(str, check_sequence(wrong, CheckSettings())))
+    assert "when recording" in found.findings[0].suggestion
+
+
+def test_mending_can_be_left_out(rendered_sequence):
+    wrong = Bent(rendered_sequence, moved(10, 0))
+    found = examine(wrong, CheckSettings(mend=False))
+    assert found.sequence is wrong
+    assert [finding.kind for finding in found.findings] == ["registration"]
 
 
 @pytest.mark.parametrize("late", [1, 3, -2])
@@ -140,6 +203,10 @@ def given_as(pairs, camera):
     return [replace(pair, camera=camera) for pair in pairs]
 
 
+def taken_by(intrinsics):
+    return Camera(intrinsics, 1000.0, "test")
+
+
 def turned(rng, count=8):
     return [
         poses.exponential(np.r_[rng.normal(0, 0.12, 3), rng.normal(0, 0.1, 3)])
@@ -167,9 +234,33 @@ def test_swapped_focal_lengths_are_named(rng):
         for p in pairs
     ]  # fmt: skip
     settings, noise = CalibrationSettings(), SensorNoise()
-    assert find_wrong_focal(stretched, settings, noise) is None
+    given = taken_by(wide)
+    assert find_wrong_focal(stretched, given, settings, noise) is None
     swapped = given_as(stretched, replace(wide, fx=wide.fy, fy=wide.fx))
-    assert "swapped" in find_wrong_focal(swapped, settings, noise).suggestion
+    finding = find_wrong_focal(swapped, taken_by(swapped[0].camera), settings, noise)
+    assert "swapped" in finding.suggestion
+    assert finding.remedy.camera.intrinsics == wide
+
+
+def test_where_one_focal_length_is_told_pixels_keep_their_shape(rng):
+    """Matches along a line tell nothing of the other."""
+    motions = [
+        poses.exponential(np.r_[rng.normal(0, 0.1, 3), 0, angle, 0])
+        for angle in rng.uniform(0.1, 0.3, 8)
+    ]
+    given = replace(KINECT, fx=1.2 * 525, fy=1.2 * 525)
+    pairs = [
+        Pair(given, *(values[np.abs(pair.pixels[:, 1] - 239.5) < 8] for values in (
+            pair.pixels, pair.depths, pair.seen, pair.depths_seen
+        )))
+        for pair in made_pairs(rng, motions, 2500)
+    ]  # fmt: skip
+    settings, noise = CalibrationSettings(tolerance=0.03), SensorNoise()
+    assert measure_focal(pairs, settings, noise).sigma[1] > settings.tolerance / 2
+    finding = find_wrong_focal(pairs, taken_by(given), settings, noise)
+    mended = finding.remedy.camera.intrinsics
+    assert np.isclose(mended.fx, 525, rtol=0.03)
+    assert np.isclose(mended.fx, mended.fy)
 
 
 def test_a_camera_that_does_not_turn_says_nothing_of_its_focal_length(rng):
@@ -179,7 +270,7 @@ def test_a_camera_that_does_not_turn_says_nothing_of_its_focal_length(rng):
     pairs = given_as(made_pairs(rng, slides), wrong)
     found = measure_focal(pairs, CalibrationSettings(), SensorNoise())
     assert found.sigma.min() > 0.05
-    assert find_wrong_focal(pairs, CalibrationSettings(), SensorNoise()) is None
+    assert find_wrong_focal(pairs, taken_by(wrong), CalibrationSettings(), SensorNoise()) is None
 
 
 def test_nothing_is_said_of_images_without_outlines(rendered_sequence):
