@@ -24,6 +24,15 @@ def test_options_survive_the_disk(tmp_path, monkeypatch):
     assert (read.depth_scale, read.start, read.stride, read.frames) == (1000, 3, 2, None)
 
 
+def test_a_camera_kept_with_the_run_moves_with_it(tmp_path):
+    old, new = tmp_path / "old", tmp_path / "new"
+    old.mkdir()
+    write_input(old / "input.toml", InputOptions(sequence=tmp_path, camera=old / "camera.json"))
+    old.rename(new)
+    read = read_input(new / "input.toml")
+    assert (read.sequence, read.camera) == (tmp_path, new / "camera.json")
+
+
 @pytest.mark.parametrize("text", ["[sequence", "stride = 2\n", 'sequence = "a"\nstrid = 2\n'])
 def test_what_are_no_options_is_refused(tmp_path, text):
     (tmp_path / "input.toml").write_text(text)

@@ -1,6 +1,12 @@
 """What is wrong with the data is said before a run, and kept with it."""
 
+import shutil
+
+import cv2
+import numpy as np
+
 from app.run_folder import RunFolder
+from slam.checks import CheckSettings, examine
 from tests.app.command import roomgraph
 
 
@@ -27,6 +33,35 @@ def test_an_impossible_one_is_named_by_the_error(rendered_walk, tmp_path, monkey
     assert "no frame could be tracked" in said
     assert "--depth-scale 5000 would be plausible" in said
     assert said.count("\n") == 1
+
+
+def test_depth_beside_the_colour_is_laid_there_and_the_camera_kept(
+    rendered_walk, tmp_path, monkeypatch, capsys
+):
+    walk, out = tmp_path / "walk", tmp_path / "out"
+    shutil.copytree(rendered_walk, walk)
+    for path in (walk / "depth").iterdir():
+        depth = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+        cv2.imwrite(str(path), np.pad(depth, ((0, 0), (14, 0)))[:, :-14])
+    assert roomgraph(monkeypatch, "run", walk, "-o", out, "--no-rrd") == 0
+    said = capsys.readouterr().out
+    assert "it is laid there" in said
+    assert f"--camera {out / 'camera.json'}" in said
+    folder = RunFolder(out)
+    assert "it is laid there" in folder.read_metrics()["warnings"][0]
+    # Whoever opens the sequence again sees what was mapped, with nothing left to warn of.
+    again = folder.read_input().open()
+    assert again.camera.depth is not None
+    assert not examine(again, CheckSettings()).findings
+    assert roomgraph(monkeypatch, "eval", out) == 0
+    mended = folder.read_metrics()["ate_rmse_m"]
+
+    settings, plain = tmp_path / "settings.toml", tmp_path / "plain"
+    settings.write_text("[checks]\nmend = false\n")
+    arguments = ("run", walk, "-o", plain, "--no-rrd", "--quiet", "--config", settings)
+    assert roomgraph(monkeypatch, *arguments) == 0
+    assert not RunFolder(plain).camera.exists()
+    assert mended < RunFolder(plain).read_metrics()["ate_rmse_m"]
 
 
 def test_checks_can_be_left_out(rendered_walk, tmp_path, monkeypatch):

@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from datasets.camera import Intrinsics, read_camera, tum_camera, write_camera
+from datasets.camera import DepthCamera, Intrinsics, read_camera, tum_camera, write_camera
 from datasets.errors import DatasetError
 
 
@@ -21,6 +21,18 @@ def test_camera_file_round_trip(tmp_path):
     read = read_camera(tmp_path / "camera.json")
     assert read.intrinsics == camera
     assert read.depth_scale == 5000
+    assert read.depth is None
+
+
+def test_camera_file_keeps_the_depth_camera(tmp_path):
+    camera = Intrinsics(640, 480, 520.0, 521.0, 319.5, 239.5)
+    T = np.array([[0, -1, 0, 0.025], [1, 0, 0, 0], [0, 0, 1, -0.001], [0, 0, 0, 1.0]])
+    own = DepthCamera(Intrinsics(512, 424, 365.1, 365.2, 255.3, 211.4, (0.09, -0.2, 0, 0, 0.1)), T)
+    write_camera(tmp_path / "camera.json", camera, 1000, own)
+    read = read_camera(tmp_path / "camera.json")
+    assert read.intrinsics == camera
+    assert read.depth.intrinsics == own.intrinsics
+    assert np.array_equal(read.depth.T_colour_depth, T)
 
 
 def test_open3d_camera_is_column_major(tmp_path):
