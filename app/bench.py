@@ -6,6 +6,7 @@ import os
 import platform
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from datetime import UTC, datetime
 from multiprocessing import get_context
 from pathlib import Path
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from app.allocation import keep_memory
 from app.bench_worker import BenchJob, BenchRun, bench_once
+from app.errors import AppError
 
 SCHEMA = "roomgraph/bench/1"
 # The frames that the beginning and the end of a run are judged by.
@@ -41,9 +43,26 @@ def run_all(
 
 
 def bench_alone(job: BenchJob) -> BenchRun:
-    """Run a job in a new process, so that its memory is its own."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=keep_memory) as pool:
-        return pool.submit(bench_once, job).result()
+    """Run a job in a new process, so that its memory is its own.
+
+    Raises
+    ------
+    RoomgraphError
+        The sequence or the model cannot be read, or the process was ended from outside.
+    """
+    try:
+        with ProcessPoolExecutor(
+            1, mp_context=get_context("spawn"), initializer=keep_memory
+        ) as pool:
+            return pool.submit(bench_once, job).result()
+    except BrokenProcessPool as error:
+        raise AppError(
+            "measuring was ended from outside",
+            where=job.input.sequence,
+            expected="a run to its end",
+            got="a process that is gone",
+            hint="most likely memory ran out; close other programs, or measure less with --frames",
+        ) from error
 
 
 def summarise(runs: Sequence[BenchRun], job: BenchJob) -> dict[str, Any]:

@@ -1,14 +1,18 @@
 """What the bench measures, and how it sums it up."""
 
 import json
+import time
+from multiprocessing import active_children
+from threading import Thread
 
 import numpy as np
 import pytest
 
-from app.bench import labelling_cost, summarise
+from app.bench import bench_alone, labelling_cost, summarise
 from app.bench_worker import BenchJob, BenchRun, resident_mb
 from app.clock import StageClock
 from app.config import AppSettings
+from app.errors import AppError
 from app.input import InputOptions
 from tests.app.command import roomgraph
 
@@ -117,3 +121,18 @@ def test_bench_tells_what_cannot_be_opened_in_one_line(tmp_path, monkeypatch, ca
 def test_help_has_examples(monkeypatch, capsys):
     assert roomgraph(monkeypatch, "bench", "--help") == 0
     assert "roomgraph bench" in capsys.readouterr().out.split("Examples")[1]
+
+
+def test_a_measuring_process_that_is_killed_is_said(job):
+    """As by a system that has no memory left."""
+
+    def kill_the_first():
+        while not (children := active_children()):
+            time.sleep(0.01)
+        children[0].kill()
+
+    killer = Thread(target=kill_the_first)
+    killer.start()
+    with pytest.raises(AppError, match="ended from outside"):
+        bench_alone(job)
+    killer.join()
