@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Collection, Mapping
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -84,11 +85,28 @@ def load_settings(
     except ValidationError as error:
         first = error.errors()[0]
         name = ".".join(str(part) for part in first["loc"])
+        hint = "`roomgraph config` prints all settings with their defaults"
+        if first["type"] == "extra_forbidden":
+            raise AppError(
+                "no such setting", where=path or "command line",
+                expected=_likely(first["loc"]), got=name, hint=hint,
+            ) from error  # fmt: skip
         raise AppError(
             f"setting {name} is not allowed", where=path or "command line",
-            expected=first["msg"], got=repr(first.get("input"))[:80],
-            hint="`roomgraph config` prints all settings with their defaults",
+            expected=first["msg"].removeprefix("Input should be "),
+            got=repr(first.get("input"))[:80], hint=hint,
         ) from error  # fmt: skip
+
+
+def _likely(wrong: tuple[int | str, ...]) -> str:
+    """Return the setting that was most likely meant by a name, or all that its table has."""
+    table: Any = AppSettings()
+    for part in wrong[:-1]:
+        table = getattr(table, str(part))
+    names = list(type(table).model_fields)
+    meant = get_close_matches(str(wrong[-1]), names, n=1)
+    prefix = [str(part) for part in wrong[:-1]]
+    return " or ".join(".".join([*prefix, name]) for name in meant or names)
 
 
 def write_settings(path: Path, settings: AppSettings) -> None:

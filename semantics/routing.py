@@ -24,6 +24,8 @@ FloatArray = NDArray[np.float64]
 _T_LEVEL_WORLD = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 # Half the width of who walks across a room.
 _CLEARANCE_M = 0.2
+# Coordinates further than this outside of all places and nodes are a mistake.
+_OUTSIDE_M = 2.0
 # A change of direction below this is straight on.
 _STRAIGHT_DEG = 30.0
 _COORDINATES = re.compile(
@@ -78,12 +80,12 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
     Raises
     ------
     SemanticsError
-        Nothing is called so.
+        Nothing is called so, or the coordinates lie outside of all that was mapped.
     """
     if not graph.nodes:
         raise SemanticsError("no nodes to go between", expected="a graph of a tracked run")
     if _COORDINATES.fullmatch(name.strip()):
-        return (_nearest(graph, [float(value) for value in name.split(",")]),)
+        return (_nearest(graph, [float(value) for value in name.split(",")], name),)
     wanted = plain(name)
     places = [place for place in graph.places if plain(place) == wanted]
     if not places:
@@ -195,13 +197,33 @@ def plain(name: str) -> str:
 
 def upright(graph: SemanticGraph) -> FloatArray:
     """Return where the nodes are (N, 3) in the map frame, z up."""
+    return _upright(graph, graph.positions)
+
+
+def _upright(graph: SemanticGraph, points_world: FloatArray) -> FloatArray:
     T = _T_LEVEL_WORLD if graph.T_map_world is None else graph.T_map_world
-    return poses.transform(T, graph.positions)
+    return poses.transform(T, points_world)
 
 
-def _nearest(graph: SemanticGraph, values: list[float]) -> int:
-    positions = graph.positions if len(values) == 3 else upright(graph)[:, :2]
-    return int(np.linalg.norm(positions - values, axis=1).argmin())
+def _nearest(graph: SemanticGraph, values: list[float], name: str) -> int:
+    nodes = upright(graph)
+    point = np.array(values)
+    if len(values) == 3:
+        gaps = np.linalg.norm(graph.positions - point, axis=1)
+        point = _upright(graph, point[None])[0]
+    else:
+        gaps = np.linalg.norm(nodes[:, :2] - point, axis=1)
+    outlines = [extent.polygon_map for extent in graph.extents]
+    known = np.concatenate([nodes[:, :2], *outlines])
+    low, high = known.min(axis=0) - _OUTSIDE_M, known.max(axis=0) + _OUTSIDE_M
+    if (point[:2] < low).any() or (point[:2] > high).any():
+        raise SemanticsError(
+            "not on the map", where=name,
+            expected=f"x from {low[0]:.1f} to {high[0]:.1f} m, y from {low[1]:.1f} to "
+            f"{high[1]:.1f} m in the map frame",
+            got=f"x {point[0]:.1f} m, y {point[1]:.1f} m",
+        )  # fmt: skip
+    return int(gaps.argmin())
 
 
 def _middle(graph: SemanticGraph, place: str) -> int:

@@ -27,5 +27,6 @@ def report(
     from app.run_folder import RunFolder
 
     folder = RunFolder(run)
+    folder.existing(folder.graph_json)
     write_report(folder)
     Terminal(quiet).say(f"Report: {folder.report}")

@@ -151,7 +151,10 @@ def test_wrong_settings_are_named(rendered_walk, tmp_path, monkeypatch, capsys):
     path = tmp_path / "settings.toml"
     path.write_text("[slam.features]\nmax_featurs = 10\n")
     said = _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
-    assert "slam.features.max_featurs" in said
+    assert "expected slam.features.max_features; got slam.features.max_featurs" in said
+    path.write_text("[slamm]\nx = 10\n")
+    said = _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
+    assert "no such setting" in said and "expected slam; got slamm" in said
     path.write_text("[slam.features]\nmax_features = 3\n")
     said = _fails(monkeypatch, capsys, "run", rendered_walk, "--config", path)
     assert "greater than or equal to 50" in said

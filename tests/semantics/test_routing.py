@@ -122,6 +122,8 @@ def test_staying_where_one_is():
 def test_what_is_no_way_is_refused():
     with pytest.raises(SemanticsError, match=r"no such place: attic.*office1"):
         find_route(_graph(), "attic", "office1")
+    with pytest.raises(SemanticsError, match=r"not on the map: 900,1; .*got x 900.0 m"):
+        find_route(_graph(), "900,1", "office1")
     with pytest.raises(SemanticsError, match="no way is known"):
         find_route(_graph(cut=[(0, 1)]), "office1", "kitchen1")
     with pytest.raises(SemanticsError, match="no nodes"):
