@@ -21,7 +21,7 @@ from rich.text import Text
 
 Advance = Callable[[int, int, str], None]
 
-LOGGERS = ("app", "slam", "semantics", "datasets")
+LOGGER = "roomgraph"
 
 
 class Terminal:
@@ -72,15 +72,13 @@ class Terminal:
             handler.setFormatter(
                 logging.Formatter("%(asctime)s %(levelname)s %(name)s %(message)s")
             )
-        for name in LOGGERS:
-            logger = logging.getLogger(name)
-            logger.setLevel(logging.INFO)
-            for handler in handlers:
-                logger.addHandler(handler)
+        logger = logging.getLogger(LOGGER)
+        logger.setLevel(logging.INFO)
+        for handler in handlers:
+            logger.addHandler(handler)
         try:
             yield
         finally:
             for handler in handlers:
-                for name in LOGGERS:
-                    logging.getLogger(name).removeHandler(handler)
+                logger.removeHandler(handler)
                 handler.close()

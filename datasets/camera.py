@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.errors import DatasetError
+from roomgraph.datasets.errors import DatasetError
 
 # Calibrations published with the TUM RGB-D benchmark, by the name of the camera in the sequence's
 # folder: fx, fy, cx, cy, then k1, k2, p1, p2, k3.

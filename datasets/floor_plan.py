@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.errors import DatasetError
+from roomgraph.datasets.errors import DatasetError
 
 FILE_NAME = "building.json"
 

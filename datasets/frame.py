@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.camera import Intrinsics
+from roomgraph.datasets.camera import Intrinsics
 
 
 @dataclass(frozen=True, slots=True)

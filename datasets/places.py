@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.errors import DatasetError
-from datasets.files import write_text
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.files import write_text
 
 
 @dataclass(frozen=True, slots=True)

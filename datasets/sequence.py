@@ -10,11 +10,11 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.camera import Camera
-from datasets.errors import DatasetError
-from datasets.frame import Frame
-from datasets.places import PlaceTruth
-from datasets.trajectory import Trajectory
+from roomgraph.datasets.camera import Camera
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.places import PlaceTruth
+from roomgraph.datasets.trajectory import Trajectory
 
 
 @runtime_checkable

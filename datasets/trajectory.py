@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets import poses
-from datasets.errors import DatasetError
-from datasets.files import write_text
+from roomgraph.datasets import se3
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.files import write_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,13 +74,13 @@ def read_tum(path: Path) -> Trajectory:
         raise DatasetError(
             "a quaternion has no length", where=path, expected="qx qy qz qw of norm 1"
         )
-    return Trajectory(values[:, 0], poses.from_quaternion(values[:, 4:], values[:, 1:4]))
+    return Trajectory(values[:, 0], se3.from_quaternion(values[:, 4:], values[:, 1:4]))
 
 
 def write_tum(path: Path, trajectory: Trajectory) -> None:
     """Write ``timestamp tx ty tz qx qy qz qw`` lines, through a temporary file."""
     rows = np.column_stack(
-        [trajectory.positions, poses.to_quaternion(trajectory.T_world_camera)]
+        [trajectory.positions, se3.to_quaternion(trajectory.T_world_camera)]
     ) if len(trajectory) else np.empty((0, 7))  # fmt: skip
     lines = ["# timestamp tx ty tz qx qy qz qw"]
     for stamp, row in zip(trajectory.stamps_s, rows, strict=True):

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from datasets.files import write_text
-from semantics.errors import SemanticsError
+from roomgraph.datasets.files import write_text
+from roomgraph.semantics.errors import SemanticsError
 
 
 def write_document(path: Path, schema: str, version: int, content: Mapping[str, Any]) -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from semantics.documents import read_document, write_document
-from semantics.errors import SemanticsError
+from roomgraph.semantics.documents import read_document, write_document
+from roomgraph.semantics.errors import SemanticsError
 
 UNKNOWN = "unknown"
 SCHEMA, VERSION = "roomgraph/labels", 1

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from datasets.settings import Settings
-from semantics.labeller import LabellerSettings
-from semantics.parts import ExtentSettings
-from semantics.presets import TrainingSettings
-from semantics.topology import TopologySettings
+from roomgraph.datasets.settings import Settings
+from roomgraph.semantics.graph.topology import TopologySettings
+from roomgraph.semantics.recognition.presets import TrainingSettings
+from roomgraph.semantics.rooms.labelling import ExtentSettings
+from roomgraph.semantics.temporal.labeller import LabellerSettings
 
 
 class SemanticsSettings(Settings):

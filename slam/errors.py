@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datasets.errors import RoomgraphError
+from roomgraph.datasets.errors import RoomgraphError
 
 
 class SlamError(RoomgraphError):

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets import poses
-from datasets.trajectory import Trajectory
-from slam.errors import SlamError
-from slam.motion import procrustes
+from roomgraph.datasets import se3
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.slam.errors import SlamError
+from roomgraph.slam.geometry.motion import procrustes
 
 FloatArray = NDArray[np.float64]
 
@@ -68,10 +68,10 @@ def compare(
         )
     P, Q = estimate.T_world_camera[paired], truth.T_world_camera[nearest[paired]]
     T = procrustes(P[:, :3, 3], Q[:, :3, 3])
-    errors = np.linalg.norm(poses.transform(T, P[:, :3, 3]) - Q[:, :3, 3], axis=1)
-    steps = poses.inverse(Q[:-1]) @ Q[1:]
-    E = poses.inverse(steps) @ (poses.inverse(P[:-1]) @ P[1:])
-    angles = np.degrees([poses.rotation_angle(e) for e in E])
+    errors = np.linalg.norm(se3.transform(T, P[:, :3, 3]) - Q[:, :3, 3], axis=1)
+    steps = se3.inverse(Q[:-1]) @ Q[1:]
+    E = se3.inverse(steps) @ (se3.inverse(P[:-1]) @ P[1:])
+    angles = np.degrees([se3.rotation_angle(e) for e in E])
     return TrajectoryError(
         _rms(errors), float(np.median(errors)), float(errors.max()),
         _rms(np.linalg.norm(E[:, :3, 3], axis=1)), _rms(angles),

@@ -7,10 +7,10 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.camera import Intrinsics
-from slam.features import Features
-from slam.planes import Plane
-from slam.range_image import RangeImage
+from roomgraph.datasets.camera import Intrinsics
+from roomgraph.slam.features.extraction import Features
+from roomgraph.slam.geometry.planes import Plane
+from roomgraph.slam.geometry.range_image import RangeImage
 
 FloatArray = NDArray[np.float64]
 

@@ -10,35 +10,35 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from datasets import poses
-from datasets.frame import Frame
-from datasets.settings import Settings
-from slam.appearance import AppearanceSettings
-from slam.backend import Backend
-from slam.estimate import Estimate
-from slam.features import FeatureExtractor, FeatureSettings
-from slam.flow import FlowSettings, FlowTracker
-from slam.ground import GroundSettings
-from slam.icp import IcpSettings
-from slam.keyframe import Keyframe
-from slam.leaning import LeaningSettings, SurfaceLeaning
-from slam.linker import Linker
-from slam.localiser import Localiser, estimate_of
-from slam.loops import LoopCloser, LoopSettings
-from slam.map import LiveMap, MapSettings, PointMap, build_map
-from slam.mapper import Mapper
-from slam.motion import MotionSettings
-from slam.noise import SensorNoise
-from slam.planes import PlaneSettings
-from slam.pose_graph import Link, PoseGraph, PoseGraphSettings
-from slam.prediction import MotionModel, PredictionSettings
-from slam.selection import KeyframeSelector, KeyframeSettings
-from slam.space import SpaceSettings
-from slam.textureless import DepthOdometry, TexturelessSettings
-from slam.tracker import Tracker, TrackerSettings
-from slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
-from slam.view import View
-from slam.window import Window, WindowSettings
+from roomgraph.datasets import se3
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.backend.alignment import Linker
+from roomgraph.slam.backend.backend import Backend
+from roomgraph.slam.backend.local_bundle_adjustment import Window, WindowSettings
+from roomgraph.slam.backend.loop_closing import LoopCloser, LoopSettings
+from roomgraph.slam.backend.mapper import Mapper
+from roomgraph.slam.backend.pose_graph import Link, PoseGraph, PoseGraphSettings
+from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
+from roomgraph.slam.features.view import View
+from roomgraph.slam.frontend.depth_odometry import DepthOdometry, TexturelessSettings
+from roomgraph.slam.frontend.depth_refinement import LeaningSettings, SurfaceLeaning
+from roomgraph.slam.frontend.estimate import Estimate
+from roomgraph.slam.frontend.keyframe_selection import KeyframeSelector, KeyframeSettings
+from roomgraph.slam.frontend.localiser import Localiser, estimate_of
+from roomgraph.slam.frontend.motion_model import MotionModel, PredictionSettings
+from roomgraph.slam.frontend.optical_flow import FlowSettings, FlowTracker
+from roomgraph.slam.frontend.tracker import Tracker, TrackerSettings
+from roomgraph.slam.geometry.icp import IcpSettings
+from roomgraph.slam.geometry.motion import MotionSettings
+from roomgraph.slam.geometry.noise import SensorNoise
+from roomgraph.slam.geometry.planes import PlaneSettings
+from roomgraph.slam.keyframe import Keyframe
+from roomgraph.slam.reconstruction.floor_plane import GroundSettings
+from roomgraph.slam.reconstruction.occupancy_volume import SpaceSettings
+from roomgraph.slam.reconstruction.point_map import LiveMap, MapSettings, PointMap, build_map
+from roomgraph.slam.relocalisation.word_index import AppearanceSettings
+from roomgraph.slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 
 logger = logging.getLogger(__name__)
 
@@ -280,7 +280,7 @@ class Slam:
         other = None if estimate.method == "depth" else self._nearest(estimate, T_world_camera)
         if other is None:
             return None
-        T_camera_other = poses.inverse(T_world_camera) @ self._backend.poses[other]
+        T_camera_other = se3.inverse(T_world_camera) @ self._backend.poses[other]
         located = self._tracker.guided(view, self._backend.around(other), T_camera_other)
         if located is None:
             return None

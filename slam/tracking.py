@@ -8,8 +8,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from slam.features import Features
-from slam.view import View
+from roomgraph.slam.features.extraction import Features
+from roomgraph.slam.features.view import View
 
 
 class TrackingState(StrEnum):

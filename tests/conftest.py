@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from datasets import poses
-from datasets.building.settings import BuildingSettings
-from datasets.open import open_sequence
+from roomgraph.datasets import se3
+from roomgraph.datasets.readers.registry import open_sequence
+from roomgraph.datasets.synthetic.settings import BuildingSettings
 
 
 @pytest.fixture
@@ -22,13 +22,13 @@ def rng():
 def random_poses(rng):
     """Twenty rigid motions with rotations of any size."""
     R = Rotation.random(20, rng=rng).as_matrix()
-    return np.array([poses.pose(R[i], t) for i, t in enumerate(rng.normal(size=(20, 3)))])
+    return np.array([se3.pose(R[i], t) for i, t in enumerate(rng.normal(size=(20, 3)))])
 
 
 @pytest.fixture(scope="session")
 def rendered_walk(tmp_path_factory) -> Path:
     """A short walk through a rendered building, in TUM layout: 60 frames of 320 x 240."""
-    from datasets.building.synth import write_sequences
+    from roomgraph.datasets.synthetic.writer import write_sequences
 
     root = tmp_path_factory.mktemp("rendered") / "walk"
     settings = BuildingSettings(seed=3, width=320, height=240, frames=60)

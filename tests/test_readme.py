@@ -19,7 +19,7 @@ def test_what_it_links_to_is_there():
 
 
 def test_every_command_it_shows_exists():
-    from app.cli import cli
+    from roomgraph.app.cli.command_line import cli
 
     known = {command.name or command.callback.__name__ for command in cli.registered_commands}
     shown = set(re.findall(r"^roomgraph (\w+)", README, re.MULTILINE))

@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from datasets import poses
-from datasets.camera import Camera, Intrinsics
-from datasets.frame import Frame
-from datasets.settings import Settings
-from slam.checks.finding import Finding
-from slam.checks.remedies import refocused
-from slam.features import FeatureExtractor, FeatureSettings
-from slam.matching import match
-from slam.motion import Correspondences, MotionSettings, estimate_motion
-from slam.noise import SensorNoise
-from slam.refine import CHI2_95, refine_motion
-from slam.view import View
+from roomgraph.datasets import se3
+from roomgraph.datasets.camera import Camera, Intrinsics
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.checks.corrected_cameras import refocused
+from roomgraph.slam.checks.finding import Finding
+from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
+from roomgraph.slam.features.matching import match
+from roomgraph.slam.features.view import View
+from roomgraph.slam.geometry.motion import Correspondences, MotionSettings, estimate_motion
+from roomgraph.slam.geometry.noise import SensorNoise
+from roomgraph.slam.geometry.refinement import CHI2_95, refine_motion
 
 FloatArray = NDArray[np.float64]
 
@@ -218,7 +218,7 @@ def _adjust(
         if np.abs(theta[:2] - np.log([given.fx, given.fy])).max() > FARTHEST:
             return None
         motions = [
-            poses.exponential(-np.linalg.solve(A, a + B @ step)) @ T
+            se3.exponential(-np.linalg.solve(A, a + B @ step)) @ T
             for (A, B, a), T in zip(eliminated, motions, strict=True)
         ]
         if np.abs(step[:2]).max() < CONVERGED:
@@ -237,7 +237,7 @@ def _linearise(
         xi = np.zeros(6)
         xi[k] = 1e-6
         J_motion[..., k] = (
-            _residuals(pair, poses.exponential(xi) @ T, theta, given) - r
+            _residuals(pair, se3.exponential(xi) @ T, theta, given) - r
         ) / 1e-6  # fmt: skip
     for k, size in enumerate((1e-6, 1e-6, 1e-3, 1e-3)):
         moved = theta.copy()
@@ -259,7 +259,7 @@ def _residuals(pair: Pair, T: FloatArray, theta: FloatArray, given: Intrinsics) 
         given, fx=float(np.exp(theta[0])), fy=float(np.exp(theta[1])),
         cx=float(theta[2]), cy=float(theta[3]),
     )  # fmt: skip
-    moved = poses.transform(T, camera.backproject(pair.pixels, pair.depths))
+    moved = se3.transform(T, camera.backproject(pair.pixels, pair.depths))
     z = np.maximum(moved[:, 2:], 1e-2)
     pixels = camera.project(np.concatenate([moved[:, :2], z], axis=1))
     depths = np.where(np.isfinite(pair.depths_seen), pair.depths_seen, z[:, 0])

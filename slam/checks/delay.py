@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from datasets.settings import Settings
-from slam.checks.edges import Outlines
-from slam.checks.registration import Alignment, score
-from slam.checks.statistics import gain_error
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.checks.edges import Outlines
+from roomgraph.slam.checks.registration import Alignment, score
+from roomgraph.slam.checks.statistics import gain_error
 
 
 class DelaySettings(Settings):

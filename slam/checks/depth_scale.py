@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from datasets.settings import Settings
+from roomgraph.datasets.settings import Settings
 
 # Raw units a metre that recordings come in, the usual ones first: millimetres, the TUM
 # benchmark's, tenths of a millimetre, centimetres, metres.

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from datasets.frame import Frame
+from roomgraph.datasets.frame import Frame
 
 # Both images are looked at about this wide, between two thirds and one and a half times:
 # outlines are a few pixels broad.

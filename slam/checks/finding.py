@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from datasets.camera import Camera
+from roomgraph.datasets.camera import Camera
 
 Kind = Literal["depth scale", "intrinsics", "registration", "time offset"]
 

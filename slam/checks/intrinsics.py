@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from pydantic import Field
 
-from datasets.camera import Intrinsics
-from datasets.settings import Settings
-from slam.checks.finding import Finding
+from roomgraph.datasets.camera import Intrinsics
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.checks.finding import Finding
 
 
 class IntrinsicsSettings(Settings):

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 from scipy import fft
 
-from datasets.settings import Settings
-from slam.checks.edges import Outlines
-from slam.checks.statistics import gain_error
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.checks.edges import Outlines
+from roomgraph.slam.checks.statistics import gain_error
 
 FloatArray = NDArray[np.float64]
 

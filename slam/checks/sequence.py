@@ -9,20 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from datasets.camera import Camera
-from datasets.errors import DatasetError
-from datasets.frame import Frame
-from datasets.sequence import Sequence
-from datasets.settings import Settings
-from slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, pair_of
-from slam.checks.delay import Delay, DelaySettings, find_delay
-from slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
-from slam.checks.edges import Outlines, outlines
-from slam.checks.finding import Finding
-from slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
-from slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
-from slam.checks.remedies import registered
-from slam.noise import SensorNoise
+from roomgraph.datasets.camera import Camera
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.sequence import Sequence
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, pair_of
+from roomgraph.slam.checks.corrected_cameras import registered
+from roomgraph.slam.checks.delay import Delay, DelaySettings, find_delay
+from roomgraph.slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
+from roomgraph.slam.checks.edges import Outlines, outlines
+from roomgraph.slam.checks.finding import Finding
+from roomgraph.slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
+from roomgraph.slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
+from roomgraph.slam.geometry.noise import SensorNoise
 
 # Of each frame, every so manieth row and column goes into the statistics of depth.
 DEPTH_STEP = 8

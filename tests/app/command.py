@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from app.main import main
+from roomgraph.app.cli.main import main
 
 
 def roomgraph(monkeypatch, *arguments):

@@ -15,7 +15,7 @@ from threading import Thread
 
 import numpy as np
 
-from app.allocation import keep_memory
+from roomgraph.app.allocation import keep_memory
 
 
 def frames():

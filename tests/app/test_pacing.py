@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pacing import GrowthGate, TimeGate
+from roomgraph.app.pacing import GrowthGate, TimeGate
 
 
 def test_it_opens_for_the_first_and_then_by_steps_and_shares():

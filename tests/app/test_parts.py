@@ -7,14 +7,14 @@ import time
 import numpy as np
 import pytest
 
-from app.buildings import building_settings
-from app.clock import StageClock
-from app.cloud_io import read_cloud, read_normals, write_cloud
-from app.config import load_settings, to_toml, write_settings
-from app.console import Terminal
-from app.errors import AppError
-from app.prefetch import prefetch
-from app.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
+from roomgraph.app.clock import StageClock
+from roomgraph.app.console import Terminal
+from roomgraph.app.errors import AppError
+from roomgraph.app.prefetch import prefetch
+from roomgraph.app.settings import load_settings, to_toml, write_settings
+from roomgraph.app.storage.building_cache import building_settings
+from roomgraph.app.storage.cloud import read_cloud, read_normals, write_cloud
+from roomgraph.app.storage.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
 
 
 def test_prefetch_keeps_the_order_and_works_ahead():
@@ -145,8 +145,8 @@ def test_terminal_can_be_quiet_and_logs_to_a_file(tmp_path, capsys):
         advance(1, 2, "half")
     assert capsys.readouterr().out == ""
     with terminal.logging(tmp_path / "run.log"):
-        logging.getLogger("slam.slam").info("lost")
-    logging.getLogger("slam.slam").info("not logged any more")
+        logging.getLogger("roomgraph.slam.slam").info("lost")
+    logging.getLogger("roomgraph.slam.slam").info("not logged any more")
     assert (tmp_path / "run.log").read_text().count("\n") == 1
 
 

@@ -3,8 +3,8 @@ import json
 import numpy as np
 import pytest
 
-from datasets.camera import DepthCamera, Intrinsics, read_camera, tum_camera, write_camera
-from datasets.errors import DatasetError
+from roomgraph.datasets.camera import DepthCamera, Intrinsics, read_camera, tum_camera, write_camera
+from roomgraph.datasets.errors import DatasetError
 
 
 def test_projection_undoes_backprojection(rng):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from datasets.errors import DatasetError
-from datasets.places import PlaceTruth, read_places, write_places
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.places import PlaceTruth, read_places, write_places
 
 
 def test_round_trip(tmp_path):

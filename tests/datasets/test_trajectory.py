@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from datasets.errors import DatasetError
-from datasets.trajectory import Trajectory, read_kitti, read_tum, write_kitti, write_tum
+from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.trajectory import Trajectory, read_kitti, read_tum, write_kitti, write_tum
 
 
 @pytest.fixture

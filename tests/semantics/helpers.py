@@ -6,15 +6,15 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from datasets.poses import pose
-from semantics.classifier import PlaceClassifier
-from semantics.histogram import BagOfFeatures, normalise
-from semantics.labeller import FrameLabel
-from semantics.labels import LabelSpace
-from semantics.model import PlaceModel
-from semantics.neural_gas import NeuralGas
-from slam.features import Features, FeatureSettings
-from slam.tracking import Anchor, Tracking, TrackingState
+from roomgraph.datasets.se3 import pose
+from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.semantics.descriptors.histogram import BagOfFeatures, normalise
+from roomgraph.semantics.descriptors.neural_gas import NeuralGas
+from roomgraph.semantics.labels import LabelSpace
+from roomgraph.semantics.recognition.model import PlaceModel
+from roomgraph.semantics.temporal.labeller import FrameLabel
+from roomgraph.slam.features.extraction import Features, FeatureSettings
+from roomgraph.slam.tracking import Anchor, Tracking, TrackingState
 
 
 def features(descriptors: np.ndarray) -> Features:

@@ -7,8 +7,8 @@ from sklearn.base import clone
 from sklearn.pipeline import make_pipeline
 from sklearn.utils.estimator_checks import check_estimator
 
-from semantics.classifier import PlaceClassifier
-from semantics.neural_gas import NeuralGas
+from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from semantics.errors import SemanticsError
-from semantics.labels import ROOM_COLOURS, LabelSpace, read_labels, write_labels
+from roomgraph.semantics.errors import SemanticsError
+from roomgraph.semantics.labels import ROOM_COLOURS, LabelSpace, read_labels, write_labels
 
 
 def test_unknown_comes_first_and_names_are_sorted():

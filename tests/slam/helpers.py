@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from datasets import poses
-from datasets.camera import Intrinsics
-from slam.motion import Correspondences
-from slam.noise import SensorNoise
+from roomgraph.datasets import se3
+from roomgraph.datasets.camera import Intrinsics
+from roomgraph.slam.geometry.motion import Correspondences
+from roomgraph.slam.geometry.noise import SensorNoise
 
 CAMERA = Intrinsics(640, 480, 525.0, 525.0, 319.5, 239.5)
 NOISE = SensorNoise()
 
 
 def small_motion(rng, metres=0.15, radians=0.1):
-    return poses.exponential(np.r_[rng.normal(0, radians, 3), rng.normal(0, metres, 3)])
+    return se3.exponential(np.r_[rng.normal(0, radians, 3), rng.normal(0, metres, 3)])
 
 
 def correspondences(rng, count=200, noise=1.0, outliers=0.0, T=None):
@@ -23,7 +23,7 @@ def correspondences(rng, count=200, noise=1.0, outliers=0.0, T=None):
     pixels = rng.uniform((40, 40), (600, 440), (4 * count, 2))
     depth = rng.uniform(0.8, 4.0, 4 * count)
     points = CAMERA.backproject(pixels, depth)
-    moved = poses.transform(T, points)
+    moved = se3.transform(T, points)
     seen = CAMERA.project(moved)
     inside = np.all((seen > 0) & (seen < (640, 480)), axis=1) & (moved[:, 2] > 0.3)
     points, moved, seen = points[inside][:count], moved[inside][:count], seen[inside][:count]
@@ -48,11 +48,11 @@ def room_cloud(rng, T_camera_world=None, count=6000, noise=0.0):
     back = np.column_stack([u - 1.5, v - 2.2, np.full(n, 3.8)])
     points = np.concatenate([floor, left, back])
     if T_camera_world is not None:
-        points = poses.transform(T_camera_world, points)
+        points = se3.transform(T_camera_world, points)
     return points + noise * rng.normal(size=points.shape)
 
 
 def motion_error(T, truth):
     """Return translation (metres) and rotation (radians) between two motions."""
-    difference = poses.inverse(T) @ truth
-    return float(np.linalg.norm(difference[:3, 3])), poses.rotation_angle(difference)
+    difference = se3.inverse(T) @ truth
+    return float(np.linalg.norm(difference[:3, 3])), se3.rotation_angle(difference)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from datasets import poses
-from datasets.camera import Intrinsics
-from slam.features import Features
-from slam.keyframe import Keyframe
-from slam.noise import SensorNoise
-from slam.planes import PlaneSettings, extract_planes
-from slam.range_image import RangeImage
+from roomgraph.datasets import se3
+from roomgraph.datasets.camera import Intrinsics
+from roomgraph.slam.features.extraction import Features
+from roomgraph.slam.geometry.noise import SensorNoise
+from roomgraph.slam.geometry.planes import PlaneSettings, extract_planes
+from roomgraph.slam.geometry.range_image import RangeImage
+from roomgraph.slam.keyframe import Keyframe
 
 CAMERA = Intrinsics(120, 90, 98.0, 98.0, 59.5, 44.5)
 # Optical axes (x right, y down, z forward) of a camera that looks along the map's x.
@@ -23,7 +23,7 @@ def camera(x, y, heading_deg, height=1.2, pitch_deg=0.0):
     """Return T_map_camera (4, 4) of a camera over a floor; positive pitch looks down."""
     turn = Rotation.from_euler("z", heading_deg, degrees=True).as_matrix()
     tilt = Rotation.from_euler("x", -pitch_deg, degrees=True).as_matrix()
-    return poses.pose(turn @ _LEVEL @ tilt, [x, y, height])
+    return se3.pose(turn @ _LEVEL @ tilt, [x, y, height])
 
 
 def around(x, y, height=1.2, pitch_deg=12.0, count=12):
@@ -76,7 +76,7 @@ def look(boxes, T_map_camera, rng=None, max_depth_m=4.0):
 
 def keyframes(boxes, cameras, T_world_map=None, rng=None, with_planes=True):
     """Return keyframes with planes, and their poses in a world that `T_world_map` leads to."""
-    T_world_map = poses.inverse(cameras[0]) if T_world_map is None else T_world_map
+    T_world_map = se3.inverse(cameras[0]) if T_world_map is None else T_world_map
     made, T_world = [], {}
     for i, T in enumerate(cameras):
         image = look(boxes, T, rng)

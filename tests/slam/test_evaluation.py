@@ -1,17 +1,17 @@
 import numpy as np
 import pytest
 
-from datasets import poses
-from datasets.trajectory import Trajectory
-from slam.errors import SlamError
-from slam.evaluation import compare, surface_distance
+from roomgraph.datasets import se3
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.slam.errors import SlamError
+from roomgraph.slam.evaluation import compare, surface_distance
 
 
 @pytest.fixture
 def pair(random_poses, rng):
     """A random truth, and an estimate that is moved as a whole and noisy."""
     stamps = np.arange(20) / 30
-    noise = np.array([poses.exponential(0.03 * rng.normal(size=6)) for _ in range(20)])
+    noise = np.array([se3.exponential(0.03 * rng.normal(size=6)) for _ in range(20)])
     return Trajectory(stamps, random_poses[5] @ random_poses @ noise), Trajectory(
         stamps, random_poses
     )

@@ -5,20 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from datasets import poses
-from datasets.building.building import Building
-from datasets.building.layout import FloorPlan
-from datasets.building.mesh import Material, Quad
-from datasets.building.renderer import Renderer
-from datasets.building.textures import ink, patterns
-from datasets.building.walk import camera_poses
-from datasets.camera import Intrinsics
-from datasets.frame import Frame
-from datasets.trajectory import Trajectory
-from slam.consistency import LoopBelief
-from slam.evaluation import compare
-from slam.slam import Slam, SlamSettings
-from slam.tracking import TrackingState
+from roomgraph.datasets import se3
+from roomgraph.datasets.camera import Intrinsics
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.synthetic.building import Building
+from roomgraph.datasets.synthetic.layout import FloorPlan
+from roomgraph.datasets.synthetic.mesh import Material, Quad
+from roomgraph.datasets.synthetic.renderer import Renderer
+from roomgraph.datasets.synthetic.textures import ink, patterns
+from roomgraph.datasets.synthetic.walk import camera_poses
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.slam.backend.loop_verification import LoopBelief
+from roomgraph.slam.evaluation import compare
+from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.tracking import TrackingState
 
 CAMERA = Intrinsics(320, 240, 262.0, 262.0, 159.5, 119.5)
 HEIGHT_M, BAY_M, BAYS = 2.4, 3.0, 5
@@ -139,7 +139,7 @@ def _off_m(slam, link, T_world_camera):
         T_world_camera[slam.keyframes[k].frame_index] for k in (link.first, link.second)
     )
     return float(
-        np.linalg.norm((poses.inverse(first) @ second - link.T_first_second)[:3, 3])
+        np.linalg.norm((se3.inverse(first) @ second - link.T_first_second)[:3, 3])
     )  # fmt: skip
 
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from datasets.frame import Frame
-from datasets.trajectory import Trajectory
-from slam.evaluation import compare
-from slam.slam import Slam, SlamSettings
-from slam.tracking import TrackingState
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.slam.evaluation import compare
+from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.tracking import TrackingState
 
 
 def _run(sequence, order, change=lambda frame: frame, settings=None):
@@ -86,7 +86,7 @@ def test_the_outcome_does_not_depend_on_which_thread_is_faster(rendered_sequence
     """With keyframes made at once instead of in the background, every byte is the same."""
     import time
 
-    from slam.mapper import Mapper
+    from roomgraph.slam.backend.mapper import Mapper
 
     order = list(range(30))
     slam, trackings = _run(rendered_sequence, order)

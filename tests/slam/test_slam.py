@@ -5,14 +5,14 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from datasets import poses
-from datasets.frame import Frame
-from datasets.sequence import frames_of, select
-from datasets.trajectory import Trajectory
-from slam.evaluation import compare
-from slam.map import LiveMap
-from slam.slam import Slam, SlamSettings
-from slam.tracking import TrackingState
+from roomgraph.datasets import se3
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.sequence import frames_of, select
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.slam.evaluation import compare
+from roomgraph.slam.reconstruction.point_map import LiveMap
+from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.tracking import TrackingState
 
 
 def _track(sequence, settings=None, change=lambda frame: frame):
@@ -43,7 +43,7 @@ def _textureless(frame):
 
 @pytest.fixture(scope="module")
 def tracked(rendered_walk):
-    from datasets.open import open_sequence
+    from roomgraph.datasets.readers.registry import open_sequence
 
     sequence = open_sequence(rendered_walk)
     return (*_track(sequence), sequence)
@@ -162,7 +162,7 @@ def test_map_lies_on_the_rooms_surfaces(tracked):
     pick = np.random.default_rng(0).choice(len(rows), 500)
     pixels = np.column_stack([columns, rows])[pick].astype(float)
     seen = frame.intrinsics.backproject(pixels, frame.depth[rows, columns][pick])
-    world = poses.transform(slam.pose_of(trackings[30].anchor), seen)
+    world = se3.transform(slam.pose_of(trackings[30].anchor), seen)
     distance, _ = cKDTree(points.points_world).query(world)
     assert np.median(distance) < 0.03
 

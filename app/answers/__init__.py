@@ -1,0 +1,1 @@
+"""Answers about a finished map: places, routes, whereabouts, and why a label was given."""

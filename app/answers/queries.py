@@ -1,0 +1,102 @@
+"""The images that a question is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from roomgraph.app.errors import AppError
+from roomgraph.app.storage.input import InputOptions
+from roomgraph.datasets.camera import Camera, read_camera
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.readers.images import IMAGE_SUFFIXES, read_colour, read_depth
+from roomgraph.datasets.readers.registration import rectify
+from roomgraph.datasets.readers.registry import READERS
+
+# Of images without time stamps.
+_FRAME_RATE_HZ = 30.0
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """An image to be located: its name, the frame, and what may follow it."""
+
+    name: str
+    frame: Frame
+
+
+def queries(source: InputOptions, depth: Path | None, camera: Camera) -> Iterator[Query]:
+    """Yield the frames of a sequence, the images of a folder by name, or one image.
+
+    Parameters
+    ----------
+    source : InputOptions
+        What to look at; `sequence` may be an image, a folder of images or a sequence.
+    depth : Path or None
+        The depth image of a single image.
+    camera : Camera
+        That took the images, if they are no sequence, and `source` names no other.
+
+    Raises
+    ------
+    RoomgraphError
+        There is no image, one cannot be read, or its shape is not the camera's.
+    """
+    if is_sequence(source.sequence):
+        sequence = source.open()
+        for index in range(len(sequence)):
+            frame = sequence[index]
+            yield Query(f"{frame.stamp_s:.6f}", frame)
+        return
+    if source.camera is not None:
+        camera = read_camera(source.camera)
+    if source.depth_scale is not None:
+        camera = replace(camera, depth_scale=source.depth_scale)
+    files = _files(source.sequence)[source.start :: source.stride][: source.frames]
+    if not files or (depth is not None and source.sequence.is_dir()):
+        raise AppError(
+            "nothing to locate", where=source.sequence,
+            expected="an image, with its depth or without; a folder of images; or a sequence",
+        )  # fmt: skip
+    yield from _image_queries(files, depth, camera)
+
+
+def is_sequence(data: Path) -> bool:
+    """Whether a path is a folder of a known layout."""
+    return data.is_dir() and any(reader.recognises(data) for reader in READERS.values())
+
+
+def _files(data: Path) -> list[Path]:
+    if data.is_dir():
+        return sorted(p for p in data.iterdir() if p.suffix.lower() in IMAGE_SUFFIXES)
+    return [data]
+
+
+def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Iterator[Query]:
+    """Yield images as if taken at 30 a second."""
+    for index, path in enumerate(files):
+        colour = read_colour(path)
+        fitted = _fitted(camera, colour.shape[1], colour.shape[0], path)
+        if depth is not None:
+            readings = read_depth(depth, camera.depth_scale)
+        else:
+            fitted = replace(fitted, depth=None)
+            readings = np.zeros(colour.shape[:2], dtype=np.float32)
+        colour, readings, pinhole = rectify(colour, readings, fitted, depth or path)
+        yield Query(str(path), Frame(index, index / _FRAME_RATE_HZ, colour, readings, pinhole))
+
+
+def _fitted(camera: Camera, width: int, height: int, path: Path) -> Camera:
+    """Return a camera for images of another size, but of the same shape."""
+    known = camera.intrinsics
+    scale = width / known.width
+    if abs(known.height * scale - height) > 1:
+        raise AppError(
+            "image of another shape than the camera's", where=path,
+            expected=f"{known.width}x{known.height} or a multiple of it", got=f"{width}x{height}",
+            hint="name the camera it was taken with: --camera FILE.json",
+        )  # fmt: skip
+    return replace(camera, intrinsics=known.resized(width, height))

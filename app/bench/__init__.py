@@ -1,0 +1,1 @@
+"""Timed runs of sequences, each in a process of its own."""

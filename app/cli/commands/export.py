@@ -1,0 +1,65 @@
+"""``roomgraph export``: one product of a run in another format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roomgraph.app.cli import options
+
+
+def _list(wanted: bool) -> None:
+    if not wanted:
+        return
+    from roomgraph.app.export.registry import EXPORTERS
+
+    width = max(map(len, EXPORTERS))
+    for name, exporter in EXPORTERS.items():
+        typer.echo(f"{name:<{width}}  {exporter.kind}: {exporter.meaning}")
+    raise typer.Exit
+
+
+def export(
+    run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
+    format: Annotated[str, typer.Argument(metavar="FORMAT", help="One of those above.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Where to write; else into the run."),
+    ] = None,
+    list_formats: Annotated[
+        bool,
+        typer.Option("--list", callback=_list, is_eager=True, help="Say what each format is."),
+    ] = False,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+) -> None:
+    """Write one product of a run in another format.
+
+    \b
+    trajectory      tum, kitti, csv
+    pose graph      g2o
+    cloud           ply, pcd, las, e57
+    mesh            mesh-ply, obj, glb
+    graph           json, graphml, dot, graph-csv, hydra
+    occupancy grid  nav2
+
+    \b
+    Examples:
+      roomgraph export out kitti -o poses.txt
+      roomgraph export out las -o floor.las
+      roomgraph export out glb -o floor.glb
+      roomgraph export out hydra -o scene_graph.json
+      roomgraph export out nav2 -o floor.yaml
+      roomgraph export --list
+    """  # noqa: D301
+    from roomgraph.app.console import Terminal
+    from roomgraph.app.export.registry import export_run
+    from roomgraph.app.storage.run_folder import RunFolder
+
+    terminal = Terminal(quiet)
+    files, notes = export_run(RunFolder(run), format, output, overwrite)
+    for note in notes:
+        terminal.say(note, dim=True)
+    terminal.say(f"Written to {', '.join(map(str, files))}")

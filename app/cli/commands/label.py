@@ -1,0 +1,118 @@
+"""``roomgraph label``: say what places images show."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from roomgraph.app.cli import options
+
+if TYPE_CHECKING:
+    from roomgraph.app.console import Terminal
+
+
+def label(
+    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Folder from `roomgraph train`.")],
+    data: Annotated[
+        Path, typer.Argument(metavar="DATA", help="Image, folder of images, or sequence.")
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="PATH",
+            help="Table item,label,score,truth (CSV); with --set, the folder of the new model.",
+        ),
+    ] = None,
+    changes: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="PLACE=LABEL",
+            help="DATA is a run: say what a place is; -o writes the model that learned it.",
+        ),
+    ] = None,
+    dataset: options.DatasetOption = None,
+    camera: options.CameraOption = None,
+    config: options.ConfigOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+    verbose: options.VerboseOption = False,
+) -> None:
+    """Label images or a sequence; correct a run.
+
+    Tells the accuracy where the truth is known.
+
+    Images are labelled one by one; the frames of a sequence together with their neighbours, by a
+    hidden Markov model (or the paper's majority vote: semantics.labeller.method in --config).
+
+    With --set, DATA is the folder of a run: its graph is corrected, the places' neighbours are
+    inferred again, and with -o the model learns what the places look like, be they new to it.
+
+    Examples:
+
+      roomgraph label places photos/test -o labels.csv
+
+      roomgraph label places my_recording
+
+      roomgraph label places out --set office2=library -o places_corrected
+    """
+    from roomgraph.app.console import Terminal
+    from roomgraph.app.learning.labelling import accuracy_table, label_items, write_labels_csv
+    from roomgraph.app.settings import load_settings
+    from roomgraph.app.storage.run_folder import refuse_existing
+    from roomgraph.semantics.recognition.model_files import load_model
+
+    terminal = Terminal(quiet, verbose)
+    if changes:
+        return _correct(model, data, changes, output, overwrite, terminal)
+    if output is not None:
+        refuse_existing(output, overwrite)
+    vote, places = load_settings(config).semantics.labeller, load_model(model)
+    with terminal.progress("Labelling") as advance:
+        items = label_items(places, data, advance, vote, dataset, camera)
+    if output is not None:
+        write_labels_csv(output, items)
+        terminal.say(f"{len(items)} labels written to {output}")
+    table = accuracy_table(items)
+    if table is not None:
+        terminal.say(table)
+    elif output is None:
+        for item in items:
+            terminal.say(f"{item.name}  {item.label}  {item.score:.2f}")
+
+
+def _correct(
+    model: Path,
+    run: Path,
+    texts: list[str],
+    output: Path | None,
+    overwrite: bool,
+    terminal: Terminal,
+) -> None:
+    from roomgraph.app.learning.correction import (
+        correct_run,
+        describe_correction,
+        learn_from_run,
+        parse_changes,
+    )
+    from roomgraph.app.storage.run_folder import RunFolder
+    from roomgraph.semantics.recognition.model_files import load_model, refuse_other, save_model
+
+    changes = parse_changes(texts)
+    if output is not None:
+        refuse_other(output, overwrite)
+    known = load_model(model)
+    folder = RunFolder(run)
+    corrections = correct_run(folder, changes)
+    for place, correction in zip(changes, corrections, strict=True):
+        terminal.say(describe_correction(correction, place))
+    if output is None:
+        return
+    with terminal.progress("Learning the corrected places") as advance:
+        learned = learn_from_run(known, folder, corrections, 0, advance)
+    save_model(output, learned, overwrite)
+    terminal.say(f"Model that knows {', '.join(learned.labels.names[1:])} written to {output}")

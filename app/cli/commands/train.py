@@ -1,0 +1,63 @@
+"""``roomgraph train``: learn a place model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roomgraph.app.cli import options
+
+
+def train(
+    data: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="DATA...", help="Folders class/image, or sequences with places.csv."
+        ),
+    ],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="MODEL", help="Folder of the model.")
+    ],
+    preset: Annotated[
+        str | None,
+        typer.Option("--preset", metavar="NAME", help="paper, as published, or best (default)."),
+    ] = None,
+    config: options.ConfigOption = None,
+    seed: options.SeedOption = None,
+    overwrite: options.OverwriteOption = False,
+    quiet: options.QuietOption = False,
+    verbose: options.VerboseOption = False,
+) -> None:
+    """Learn places from labelled images or sequences.
+
+    Visual words and a classifier. Each DATA is a folder with a subfolder of images for each class,
+    or an RGB-D sequence with a places.csv (timestamp,label).
+
+    Examples:
+
+      roomgraph train photos/ -o places
+
+      roomgraph train day_walk night_walk -o places
+
+      roomgraph train photos/ -o as_published --preset paper
+    """
+    from roomgraph.app.console import Terminal
+    from roomgraph.app.learning.training import train_model, with_preset
+    from roomgraph.app.settings import load_settings
+    from roomgraph.semantics.recognition.model_files import refuse_other, save_model
+
+    terminal = Terminal(quiet, verbose)
+    settings = with_preset(load_settings(config, {"seed": seed}), preset)
+    refuse_other(output, overwrite)
+    with terminal.logging():
+        model = train_model(data, settings, terminal)
+    save_model(output, model, overwrite)
+    images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())
+    terminal.say(f"Learned {len(model.labels) - 1} places from: {images}")
+    terminal.say(
+        f"Right on held-out images: {model.training['cross_validated_accuracy']:.1%}, "
+        f"where chance is {1 / (len(model.labels) - 1):.1%}. "
+        f"Model written to {output}"
+    )

@@ -1,0 +1,157 @@
+"""The flags that several commands share."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+
+import typer
+
+if TYPE_CHECKING:
+    from roomgraph.app.settings import AppSettings
+    from roomgraph.app.storage.input import InputOptions
+
+SequenceArgument = Annotated[
+    Path, typer.Argument(metavar="SEQUENCE", help="Folder of an RGB-D sequence.")
+]
+OutputOption = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="Where to write; else results/NAME/TIME, with a link `latest`.",
+    ),
+]
+OverwriteOption = Annotated[
+    bool, typer.Option("--overwrite", help="Replace an output that is there already.")
+]
+DatasetOption = Annotated[
+    str | None,
+    typer.Option(
+        "--dataset", metavar="LAYOUT", help="tum, 7scenes or folder; guessed if left out."
+    ),
+]
+CameraOption = Annotated[
+    Path | None,
+    typer.Option("--camera", metavar="JSON", help="Camera file in place of the sequence's own."),
+]
+DepthScaleOption = Annotated[
+    float | None,
+    typer.Option("--depth-scale", metavar="N", min=1e-3, help="Raw depth units a metre."),
+]
+ModelOption = Annotated[
+    Path | None,
+    typer.Option("--model", metavar="DIR", help="Place model from `roomgraph train`."),
+]
+ConfigOption = Annotated[
+    Path | None,
+    typer.Option("--config", metavar="TOML", help="Settings, as `roomgraph config` prints them."),
+]
+StartOption = Annotated[int, typer.Option("--start", metavar="N", min=0, help="First frame.")]
+FramesOption = Annotated[
+    int | None,
+    typer.Option("--frames", metavar="N", min=1, help="Frames at most.", show_default="all"),
+]
+StrideOption = Annotated[
+    int, typer.Option("--stride", metavar="N", min=1, help="Every n-th frame.")
+]
+MaxDepthOption = Annotated[
+    float | None,
+    typer.Option("--max-depth", metavar="M", min=0.1, help="Ignore readings beyond, metres."),
+]
+VisualizeOption = Annotated[
+    bool, typer.Option("-v", "--visualize", help="Watch the run live in Rerun.")
+]
+SaveRrdOption = Annotated[
+    bool, typer.Option("--save-rrd/--no-rrd", help="Write recording.rrd for Rerun.")
+]
+ReportOption = Annotated[
+    bool, typer.Option("--report/--no-report", help="Write report.html and the floor plan.")
+]
+SeedOption = Annotated[
+    int | None,
+    typer.Option("--seed", metavar="N", min=0, help="Of all random choices.", show_default="0"),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print JSON, and nothing else, on standard output.")
+]
+QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
+VerboseOption = Annotated[bool, typer.Option("--verbose", help="Say what is going on inside.")]
+
+
+@dataclass(frozen=True, slots=True)
+class InputFlags:
+    """How a sequence is opened."""
+
+    dataset: DatasetOption = None
+    camera: CameraOption = None
+    depth_scale: DepthScaleOption = None
+    start: StartOption = 0
+    frames: FramesOption = None
+    stride: StrideOption = 1
+
+    def of(self, sequence: Path) -> InputOptions:
+        """Return how to open this sequence."""
+        from roomgraph.app.storage.input import InputOptions
+
+        return InputOptions(
+            sequence=sequence, dataset=self.dataset, camera=self.camera,
+            depth_scale=self.depth_scale, start=self.start, frames=self.frames, stride=self.stride,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class SettingFlags:
+    """Where the settings come from."""
+
+    config: ConfigOption = None
+    max_depth: MaxDepthOption = None
+    seed: SeedOption = None
+
+    def load(self) -> AppSettings:
+        """Return the settings of the file under those given as flags."""
+        from roomgraph.app.settings import load_settings
+
+        return load_settings(self.config, {"seed": self.seed, "slam.max_depth_m": self.max_depth})
+
+
+def grouped(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the fields of its parameters that are dataclasses as flags of their own."""
+    own = inspect.signature(command).parameters.values()
+    hints = get_type_hints(command, include_extras=True)
+    groups = {p.name: hints[p.name] for p in own if is_dataclass(hints[p.name])}
+    flags = []
+    for parameter in own:
+        if parameter.name in groups:
+            flags += _flags_of(groups[parameter.name])
+        else:
+            flags.append(
+                parameter.replace(annotation=hints[parameter.name], kind=parameter.KEYWORD_ONLY)
+            )
+
+    @wraps(command)
+    def run_command(**values: Any) -> None:
+        for name, group in groups.items():
+            given = {field.name: values.pop(field.name) for field in fields(group)}
+            values[name] = group(**given)
+        command(**values)
+
+    run_command.__annotations__ = {flag.name: flag.annotation for flag in flags}
+    run_command.__dict__["__signature__"] = inspect.Signature(flags)
+    return run_command
+
+
+def _flags_of(group: Any) -> list[inspect.Parameter]:
+    hints = get_type_hints(group, include_extras=True)
+    return [
+        inspect.Parameter(
+            field.name, inspect.Parameter.KEYWORD_ONLY, default=field.default,
+            annotation=hints[field.name],
+        )
+        for field in fields(group)
+    ]  # fmt: skip

@@ -1,0 +1,161 @@
+"""What an experiment found, and its tables."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roomgraph.app.experiments.pictures import draw
+from roomgraph.datasets.files import write_text
+from roomgraph.semantics.evaluation.accuracy import LabelAccuracy, compare_labels
+from roomgraph.semantics.evaluation.calibration import (
+    auroc,
+    brier_score,
+    expected_calibration_error,
+)
+from roomgraph.semantics.evaluation.open_set import Judgement
+from roomgraph.semantics.evaluation.trials import Trial, per_class
+
+
+@dataclass(frozen=True, slots=True)
+class ProtocolReport:
+    """What an experiment found.
+
+    Attributes
+    ----------
+    name, preset : str
+        The experiment, and how places were learned.
+    data : tuple of str
+        What it was run on.
+    trials : tuple of Trial
+        All trainings and tests.
+    notes : tuple of str
+        What a reader has to know: what stands on both sides of a split, what was left out.
+    headline : tuple of str
+        Rows that the overall accuracy is the mean of; all if empty.
+    judgement : Judgement or None
+        Probabilities for buildings never seen.
+    figures : mapping
+        Further numbers by name.
+    """
+
+    name: str
+    preset: str
+    data: tuple[str, ...]
+    trials: tuple[Trial, ...]
+    notes: tuple[str, ...]
+    headline: tuple[str, ...] = ()
+    judgement: Judgement | None = None
+    figures: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def counted(self) -> list[Trial]:
+        """The trials of the headline rows."""
+        return [t for t in self.trials if not self.headline or t.row in self.headline]
+
+    @property
+    def confusion(self) -> LabelAccuracy:
+        """True against found labels of the headline rows."""
+        return compare_labels(
+            (str(a), str(b))
+            for trial in self.counted
+            for a, b in zip(trial.truth, trial.found, strict=True)
+        )
+
+    def content(self) -> dict[str, Any]:
+        """Return the report as plain values."""
+        accuracies = [trial.accuracy for trial in self.counted]
+        content: dict[str, Any] = {
+            "schema": "roomgraph/protocol/1",
+            "protocol": self.name,
+            "preset": self.preset,
+            "data": list(self.data),
+            "accuracy_mean": _rounded(np.mean(accuracies)),
+            "accuracy_std": _rounded(np.std(accuracies)),
+            "class_mean": _rounded(np.mean(list(per_class(self.counted).values()))),
+            "per_class": {k: _rounded(v) for k, v in per_class(self.counted).items()},
+            "rows": [_row(name, [t for t in self.trials if t.row == name]) for name in self.rows],
+            "confusion": {
+                "labels": list(self.confusion.names),
+                "counts": self.confusion.confusion.tolist(),
+            },
+            "notes": list(self.notes),
+        }
+        if self.judgement is not None:
+            content |= judged(self.judgement)
+        return content | self.figures
+
+    @property
+    def rows(self) -> list[str]:
+        """The table's rows, in order."""
+        return list(dict.fromkeys(trial.row for trial in self.trials))
+
+
+def judged(judgement: Judgement) -> dict[str, Any]:
+    """Return the figures of the probabilities."""
+    confidence, right = judgement.confidence
+    index = np.array([judgement.classes.index(str(name)) for name in judgement.truth])
+    areas = {k: auroc(judgement.usual[k], v) for k, v in judgement.strange.items() if len(v)}
+    return {
+        "ece": _rounded(expected_calibration_error(confidence, right)),
+        "brier": _rounded(brier_score(judgement.probabilities, index)),
+        "unknown_auroc_mean": _rounded(np.mean(list(areas.values()))),
+        "unknown_auroc": {name: _rounded(value) for name, value in areas.items()},
+    }
+
+
+def write_report(directory: Path, report: ProtocolReport) -> dict[str, Any]:
+    """Write NAME.json, NAME.md and NAME.png; return what the JSON holds."""
+    directory.mkdir(parents=True, exist_ok=True)
+    content = report.content()
+    text = json.dumps(content, indent=1, allow_nan=False)
+    write_text(directory / f"{report.name}.json", text + "\n")
+    write_text(directory / f"{report.name}.md", markdown(content))
+    draw(directory / f"{report.name}.png", content, report.confusion, report.judgement)
+    return content
+
+
+def markdown(content: dict[str, Any]) -> str:
+    """Return the report as Markdown."""
+    lines = [
+        f"# {content['protocol']}, preset {content['preset']}", "",
+        f"On {', '.join(content['data'])}.", "",
+        "| | accuracy | std | mean per class | trainings | images tested |",
+        "| --- | ---: | ---: | ---: | ---: | ---: |",
+    ]  # fmt: skip
+    for row in content["rows"]:
+        lines.append(
+            f"| {row['name']} | {row['accuracy_mean']:.1%} | {row['accuracy_std']:.1%} | "
+            f"{row['class_mean']:.1%} | {row['trials']} | {row['images']} |"
+        )
+    lines += ["", "| class | right |", "| --- | ---: |"]
+    lines += [f"| {name} | {share:.1%} |" for name, share in content["per_class"].items()]
+    if "ece" in content:
+        lines += [
+            "", f"Calibration error (ECE) {content['ece']:.3f}, "
+            f"Brier score {content['brier']:.3f}; a kind of place never seen stands out with "
+            f"AUROC {content['unknown_auroc_mean']:.2f}.",
+        ]  # fmt: skip
+    lines += ["", *(f"- {note}" for note in content["notes"])]
+    return "\n".join(lines) + "\n"
+
+
+def _row(name: str, trials: Sequence[Trial]) -> dict[str, Any]:
+    accuracies = [trial.accuracy for trial in trials]
+    return {
+        "name": name,
+        "accuracy_mean": _rounded(np.mean(accuracies)),
+        "accuracy_std": _rounded(np.std(accuracies)),
+        "class_mean": _rounded(np.mean(list(per_class(trials).values()))),
+        "trials": len(trials),
+        "images": sum(len(trial.truth) for trial in trials),
+    }
+
+
+def _rounded(value: Any) -> float:
+    return round(float(value), 4)

@@ -1,0 +1,77 @@
+"""What an export format is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from roomgraph.app.errors import AppError
+from roomgraph.app.storage.run_folder import RunFolder
+
+Notes = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Exporter:
+    """A format that a product can be had in.
+
+    Attributes
+    ----------
+    kind : str
+        Of product: ``trajectory``, ``cloud``, ``mesh`` ...
+    meaning : str
+        What is written, and who reads it, in a few words.
+    file_name : str
+        What the file is called if nothing else is asked for.
+    write : callable
+        Writes a run's product to a path; returns what the user should know.
+    beside : callable
+        The further files that come with a path.
+    """
+
+    kind: str
+    meaning: str
+    file_name: str
+    write: Callable[[RunFolder, Path], Notes]
+    beside: Callable[[Path], tuple[Path, ...]] = lambda path: ()
+
+
+def product(path: Path, hint: str | None = None) -> Path:
+    """Return a product's path.
+
+    Raises
+    ------
+    AppError
+        The run does not have it.
+    """
+    if not path.exists():
+        raise AppError(
+            "the run lacks this product", where=path, expected="a finished run",
+            got="no such file", hint=hint,
+        )  # fmt: skip
+    return path
+
+
+def named(path: Path, *suffixes: str) -> Path:
+    """Return a path that ends as its format does: some writers go by that.
+
+    Raises
+    ------
+    AppError
+        It ends otherwise.
+    """
+    if path.suffix not in suffixes:
+        raise AppError(
+            "not the name of such a file", where=path,
+            expected=" or ".join(f"NAME{suffix}" for suffix in suffixes),
+        )  # fmt: skip
+    return path
+
+
+def missing_package(package: str, extra: str) -> AppError:
+    """Return what to say where an optional package is not installed."""
+    return AppError(
+        f"the package {package} is not installed", where="roomgraph export",
+        hint=f"install it with: pip install 'roomgraph[{extra}]'",
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Place models: learned from labelled data, applied to images, taught by corrections."""

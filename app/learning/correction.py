@@ -1,0 +1,111 @@
+"""A person's corrections of a run: `roomgraph label MODEL RUN --set office2=library`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from roomgraph.app.console import Advance
+from roomgraph.app.errors import AppError
+from roomgraph.app.storage.run_folder import RunFolder
+from roomgraph.semantics.graph.correction import Correction, correct, learn_more
+from roomgraph.semantics.graph.files import read_graph_json, write_graph_json, write_graphml
+from roomgraph.semantics.graph.graph import SemanticGraph
+from roomgraph.semantics.labels import write_labels
+from roomgraph.semantics.recognition.model import PlaceModel
+from roomgraph.semantics.temporal.labeller import LabellerSettings
+from roomgraph.slam.features.extraction import FeatureExtractor, Features
+
+# Images of a corrected place that the model learns from, evenly spread.
+MOST_IMAGES = 60
+
+
+def parse_changes(texts: Sequence[str]) -> dict[str, str]:
+    """Return the new label of each place from texts like ``office2=library``.
+
+    Raises
+    ------
+    AppError
+        A text is not of that form.
+    """
+    changes = {}
+    for text in texts:
+        place, _, label = (part.strip() for part in text.partition("="))
+        if not place or not label:
+            raise AppError(
+                "correction not understood", where="--set", expected="PLACE=LABEL", got=repr(text)
+            )
+        changes[place] = label
+    return changes
+
+
+def correct_run(folder: RunFolder, changes: Mapping[str, str]) -> list[Correction]:
+    """Rename places of a run and write its graph and labels again.
+
+    The cloud and the table of frames stay as they were recorded.
+
+    Raises
+    ------
+    AppError, SemanticsError
+        The folder is no run's, or its graph has no such place. Nothing is written then.
+    """
+    graph = read_graph_json(folder.existing(folder.graph_json))
+    corrections = []
+    for place, label in changes.items():
+        correction = correct(graph, place, label, LabellerSettings().change_m)
+        corrections.append(correction)
+        graph = correction.graph
+    write_graph_json(folder.graph_json, graph)
+    write_graphml(folder.graphml, graph)
+    write_labels(folder.labels, graph.labels)
+    return corrections
+
+
+def learn_from_run(
+    model: PlaceModel,
+    folder: RunFolder,
+    corrections: Sequence[Correction],
+    seed: int,
+    advance: Advance,
+) -> PlaceModel:
+    """Return a model that has learned what the corrected places of a run look like.
+
+    Raises
+    ------
+    SemanticsError
+        The model keeps no lessons.
+    """
+    sequence = folder.read_input().open()
+    extractor = FeatureExtractor(model.features)
+    for correction in corrections:
+        label = next(n.label for n in correction.graph.nodes if n.id in correction.told)
+        frames = frames_of_nodes(correction.graph, correction.told, len(sequence))
+        vectors = []
+        for done, frame in enumerate(frames, 1):
+            colour = sequence[frame].colour
+            # A model that describes images itself asks for no features.
+            dense = model.encoder is not None
+            features = Features.none() if dense else extractor.extract_image(colour)
+            vector = model.vector(features, colour)
+            if vector is not None:
+                vectors.append(vector)
+            advance(done, len(frames), label)
+        model = learn_more(model, vectors, label, f"{sequence.root}#{correction.place}", seed)
+    return model
+
+
+def frames_of_nodes(graph: SemanticGraph, told: Sequence[int], count: int) -> list[int]:
+    """Return at most `MOST_IMAGES` frames, of `count`, that are nearest to some of the nodes."""
+    at = np.array([node.frame for node in graph.nodes])
+    nearest = np.abs(np.arange(count)[:, None] - at[None]).argmin(axis=1)
+    wanted = np.isin([node.id for node in graph.nodes], told)[nearest]
+    frames = np.flatnonzero(wanted)
+    kept = np.unique(np.linspace(0, len(frames) - 1, min(MOST_IMAGES, len(frames))).astype(int))
+    return [int(frame) for frame in frames[kept]]
+
+
+def describe_correction(correction: Correction, before: str) -> str:
+    """Return one line on what a correction did."""
+    also = f" and {len(correction.inferred)} beside" if correction.inferred else ""
+    return f"{before} is now {correction.place}: {len(correction.told)} nodes{also}"

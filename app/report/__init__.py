@@ -1,0 +1,1 @@
+"""A run for people: the page, the floor plan, the figures."""

@@ -1,0 +1,1 @@
+"""One run: frames in, a run's folder out."""

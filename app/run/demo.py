@@ -1,0 +1,46 @@
+"""The whole job on two rendered buildings: learn one, map and label the other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from roomgraph.app.console import Terminal
+from roomgraph.app.learning.training import train_model
+from roomgraph.app.run.session import Showing, map_sequence
+from roomgraph.app.settings import AppSettings
+from roomgraph.app.storage.building_cache import building_settings, cached
+from roomgraph.app.storage.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
+from roomgraph.datasets.readers.registry import open_sequence
+from roomgraph.semantics.recognition.model_files import save_model
+
+
+def run_demo(
+    settings: AppSettings,
+    output: Path | None,
+    overwrite: bool,
+    showing: Showing,
+    terminal: Terminal,
+) -> tuple[RunFolder, dict[str, Any]]:
+    """Run the demonstration; return its run folder and metrics.
+
+    Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
+    The place model is kept in the run's folder.
+    """
+    showing.check()
+    if output is not None:
+        clear_output(output, overwrite, RUN_MARKS)
+    known = building_settings(seed=2 * settings.seed)
+    strange = building_settings(seed=2 * settings.seed + 1)
+    lessons = cached(("day", "night"), known, terminal)
+    (strange_floor,) = cached(("day",), strange, terminal)
+    model = train_model(lessons, settings, terminal)
+    terminal.say(
+        f"Learned from {sum(model.training['images'].values())} images; "
+        f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
+        dim=True,
+    )
+    sequence = open_sequence(strange_floor)
+    folder = make_run_folder(output, sequence.name, overwrite=False)
+    save_model(folder.model, model)
+    return folder, map_sequence(sequence, settings, model, folder, showing, terminal)

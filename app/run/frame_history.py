@@ -1,0 +1,172 @@
+"""The frames of a run with their labels, and where they are as far as known now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.app.viewer.viewer import MapView
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.semantics.graph.graph import SemanticGraph
+from roomgraph.semantics.labels import UNKNOWN
+from roomgraph.semantics.rooms.labelling import Vote
+from roomgraph.semantics.rooms.lookup import places_at
+from roomgraph.semantics.temporal.labeller import FrameLabel
+from roomgraph.slam.backend.pose_graph import Link
+from roomgraph.slam.reconstruction.point_map import PointMap
+from roomgraph.slam.slam import Slam
+from roomgraph.slam.tracking import Tracking, TrackingState
+
+FloatArray = NDArray[np.float64]
+
+
+class Journal:
+    """Keeps what was found of each frame, and says where that is in the world.
+
+    Parameters
+    ----------
+    slam : Slam
+        Knows where keyframes are; frames hang on them.
+
+    Attributes
+    ----------
+    labels : list of FrameLabel
+        By frame, without their features.
+    on_the_way : list of str
+        By frame, the labels before the rooms were known.
+    """
+
+    def __init__(self, slam: Slam) -> None:
+        self.slam = slam
+        self.labels: list[FrameLabel] = []
+        self.on_the_way: list[str] = []
+
+    def add(self, label: FrameLabel) -> None:
+        """Keep the next frame's label."""
+        self.labels.append(replace(label, tracking=label.tracking.without_view()))
+        self.on_the_way.append(label.label)
+
+    def settle(self) -> list[Trajectory]:
+        """Say at last of each frame whether its place in the world became known.
+
+        Frames of a sub-map that was joined count as relocalised where they were lost; those of a
+        sub-map that never was are lost. Returns the ways through these, each in its own frame.
+        """
+        apart: dict[int, list[tuple[float, FloatArray]]] = {}
+        for i, label in enumerate(self.labels):
+            tracking, anchor = label.tracking, label.tracking.anchor
+            if anchor is None:
+                continue
+            if self.slam.is_placed(anchor):
+                state = tracking.state
+                if state is TrackingState.LOST:
+                    state = TrackingState.RELOCALISED
+                tracking = replace(tracking, state=state)
+            else:
+                if anchor.keyframe in self.slam.keyframes:  # else it failed in the making
+                    submap = self.slam.mapper.graph.component_of(anchor.keyframe)
+                    way = (tracking.stamp_s, self.slam.pose_of(anchor))
+                    apart.setdefault(submap, []).append(way)
+                tracking = replace(
+                    tracking, state=TrackingState.LOST, inliers=0, method="none", anchor=None,
+                    T_world_camera=None,
+                )  # fmt: skip
+            self.labels[i] = replace(label, tracking=tracking)
+        return [_trajectory_of(ways) for ways in apart.values()]
+
+    def settle_labels(self, graph: SemanticGraph) -> None:
+        """Give frames the label of the place that they were taken in, where its floor is known.
+
+        In a doorway an image shows the next room while the camera is still in this one. A frame
+        whose label changes gets the place's score; what its image spoke for stays noted beside.
+        """
+        way = _way_of(self.labels, self.slam.placed_poses)
+        centres = np.array([T[:3, 3] for _, T in way]).reshape(-1, 3)
+        for (tracking, _), place in zip(way, places_at(graph, centres), strict=True):
+            label = self.labels[tracking.index]
+            extent = graph.extents[place] if place >= 0 else None
+            if extent is not None and extent.label not in (UNKNOWN, label.label):
+                self.labels[tracking.index] = replace(
+                    label, label=extent.label, label_id=extent.label_id, score=extent.score
+                )
+
+    def trajectory(self) -> Trajectory:
+        """Return the poses of all frames that have a place in the world."""
+        way = _way_of(self.labels, self.slam.placed_poses)
+        return _trajectory_of([(tracking.stamp_s, T) for tracking, T in way])
+
+    def votes(self, keyframes: Sequence[int]) -> list[Vote]:
+        """Return where frames that hang on one of `keyframes` were, and what they look like."""
+        known = set(keyframes)
+        return [
+            Vote(label.tracking.index, self.slam.pose_of(anchor)[:3, 3], label.label, label.score)
+            for label in self.labels
+            if (anchor := label.tracking.anchor) is not None and anchor.keyframe in known
+        ]
+
+    def map_view(self, points: PointMap, graph: SemanticGraph) -> MapView:
+        """Return a finished map as viewers are shown it, with keyframes, links and the way.
+
+        Each point has the label of the place it lies in, else of the keyframe that saw it.
+        """
+        view = _view_of(points, self.labels, self.slam.placed_poses, self.slam.links)
+        if not graph.extents:
+            return view
+        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
+        place = places_at(graph, points.points_world)
+        return replace(view, label_ids=np.where(place >= 0, of_extent[place], view.label_ids))
+
+    def sketch(self) -> Callable[[], MapView]:
+        """Return what draws the map as it is now, coarsely; see `Slam.map_sketcher`.
+
+        Without a place's extent, what is seen through a door bears the label of this side of it.
+        """
+        draw, labels = self.slam.map_sketcher(), list(self.labels)
+        T_world_keyframe, links = self.slam.placed_poses, self.slam.links
+        return lambda: _view_of(draw(), labels, T_world_keyframe, links)
+
+
+def _view_of(
+    points: PointMap,
+    labels: Sequence[FrameLabel],
+    T_world_keyframe: dict[int, FloatArray],
+    links: Sequence[Link],
+) -> MapView:
+    """Return a map as viewers are shown it, each point labelled like the keyframe that saw it."""
+    between = [k for k in links if k.first in T_world_keyframe and k.second in T_world_keyframe]
+    ends = np.array([
+        (T_world_keyframe[k.first][:3, 3], T_world_keyframe[k.second][:3, 3]) for k in between
+    ]).reshape(-1, 2, 3)  # fmt: skip
+    loops = np.array([link.is_loop for link in between], dtype=bool)
+    label_ids = np.zeros(max(T_world_keyframe, default=0) + 1, dtype=np.uint16)
+    way = _way_of(labels, T_world_keyframe)
+    for label in labels:
+        tracking = label.tracking
+        anchor = tracking.anchor
+        if tracking.is_keyframe and anchor is not None and anchor.keyframe in T_world_keyframe:
+            label_ids[anchor.keyframe] = label.label_id
+    return MapView(
+        points, label_ids[points.keyframes], tuple(T_world_keyframe),
+        np.array(list(T_world_keyframe.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
+        np.array([T[:3, 3] for _, T in way]).reshape(-1, 3),
+        tuple(tracking.index for tracking, _ in way), tuple(tracking.state for tracking, _ in way),
+    )  # fmt: skip
+
+
+def _way_of(
+    labels: Sequence[FrameLabel], T_world_keyframe: dict[int, FloatArray]
+) -> list[tuple[Tracking, FloatArray]]:
+    """Return the frames that have a place in the world, and T_world_camera (4, 4) there."""
+    return [
+        (label.tracking, T_world_keyframe[anchor.keyframe] @ anchor.T_keyframe_camera)
+        for label in labels
+        if (anchor := label.tracking.anchor) is not None and anchor.keyframe in T_world_keyframe
+    ]
+
+
+def _trajectory_of(way: list[tuple[float, FloatArray]]) -> Trajectory:
+    stamps = np.array([stamp for stamp, _ in way])
+    return Trajectory(stamps, np.array([T for _, T in way]).reshape(-1, 4, 4))

@@ -1,0 +1,153 @@
+"""The figures of a run."""
+
+from __future__ import annotations
+
+import resource
+from collections import Counter
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from roomgraph.app.clock import StageClock
+from roomgraph.app.run.frame_history import Journal
+from roomgraph.datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_plan
+from roomgraph.datasets.places import PlaceTruth
+from roomgraph.datasets.sequence import Sequence
+from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.semantics.evaluation.accuracy import (
+    evaluate_frames,
+    evaluate_instances,
+    evaluate_nodes,
+)
+from roomgraph.semantics.evaluation.topology import (
+    evaluate_doorways,
+    evaluate_extents,
+    largest_error,
+)
+from roomgraph.semantics.graph.graph import SemanticGraph
+from roomgraph.slam.errors import SlamError
+from roomgraph.slam.evaluation import compare
+from roomgraph.slam.reconstruction.point_map import PointMap
+from roomgraph.slam.slam import Slam
+from roomgraph.slam.tracking import TrackingState
+
+SCHEMA = "roomgraph/metrics/1"
+
+
+def run_metrics(
+    sequence: Sequence,
+    slam: Slam,
+    journal: Journal,
+    trajectory: Trajectory,
+    graph: SemanticGraph,
+    points: PointMap,
+    clock: StageClock,
+    warnings: Iterable[str] = (),
+) -> dict[str, Any]:
+    """Return what `metrics.json` holds."""
+    labels = journal.labels
+    states = Counter(label.tracking.state for label in labels)
+    tracked = sum(count for state, count in states.items() if state.has_pose)
+    seconds = clock.elapsed_s
+    metrics: dict[str, Any] = {
+        "schema": SCHEMA,
+        "sequence": str(sequence.root.resolve()),
+        "frames": len(sequence),
+        "frames_tracked": tracked,
+        "frames_lost": states[TrackingState.LOST],
+        "frames_skipped": len(sequence) - tracked - states[TrackingState.LOST],
+        "frames_by_depth": sum(label.tracking.method == "depth" for label in labels),
+        "keyframes": len(slam.keyframes),
+        "loop_closures": len(slam.mapper.closures),
+        "path_length_m": round(trajectory.length_m, 4),
+        "seconds_total": round(seconds, 3),
+        "fps": round(len(labels) / seconds, 2) if seconds else 0.0,
+        "stage_ms": clock.summary(),
+        "peak_rss_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
+        "map_points": len(points),
+        **memory_metrics(slam, points),
+        "graph_nodes": len(graph.nodes),
+        "graph_edges": len(graph.edges),
+        "labels": list(graph.labels.names[1:]),
+        "places": list(graph.places),
+        "warnings": list(warnings),
+    }
+    if sequence.ground_truth is not None:
+        metrics |= trajectory_metrics(trajectory, sequence.ground_truth)
+    if sequence.places is not None and len(graph.labels) > 1:
+        stamps = [label.tracking.stamp_s for label in labels]
+        frames = list(zip(stamps, (label.label for label in labels), strict=True))
+        metrics |= place_metrics(graph, frames, sequence.places)
+        before = list(zip(stamps, journal.on_the_way, strict=True))
+        on_the_way = evaluate_frames(before, sequence.places).overall
+        metrics["place_accuracy_per_frame_on_the_way"] = _rounded(on_the_way)
+        plan = sequence.root / FILE_NAME
+        if plan.is_file():
+            metrics |= topology_metrics(graph, read_floor_plan(plan), metrics["rooms_matched"])
+    return metrics
+
+
+def topology_metrics(
+    graph: SemanticGraph, truth: FloorPlanTruth, matches: dict[str, str]
+) -> dict[str, Any]:
+    """Return how right the places' extents and the doorways are; `matches` is room to place."""
+    places, errors = evaluate_extents(graph, truth.areas_m2, matches)
+    doorways = evaluate_doorways(graph, truth.doorways, matches)
+    return {
+        "place_precision": _rounded(places.precision),
+        "place_recall": _rounded(places.recall),
+        "doorway_precision": _rounded(doorways.precision),
+        "doorway_recall": _rounded(doorways.recall),
+        "area_error": {room: _rounded(error) for room, error in errors.items()},
+        "area_error_max": _rounded(largest_error(errors)),
+    }
+
+
+def memory_metrics(slam: Slam, points: PointMap) -> dict[str, Any]:
+    """Return the bytes held by keyframes and map, over the area of the surfaces seen."""
+    held = sum(keyframe.nbytes for keyframe in slam.keyframes.values()) + points.nbytes
+    area = points.surface_m2()
+    return {
+        "surface_m2": round(area, 2),
+        "map_bytes": held,
+        "map_bytes_per_m2": round(held / area) if area else None,
+    }
+
+
+def trajectory_metrics(trajectory: Trajectory, truth: Trajectory) -> dict[str, Any]:
+    """Return ATE and RPE; nothing if too few poses have a true one."""
+    try:
+        error = compare(trajectory, truth)
+    except SlamError:
+        return {}
+    return {
+        "ate_rmse_m": round(error.ate_rmse_m, 6),
+        "ate_median_m": round(error.ate_median_m, 6),
+        "ate_max_m": round(error.ate_max_m, 6),
+        "rpe_trans_rmse_m": round(error.rpe_trans_rmse_m, 6),
+        "rpe_rot_rmse_deg": round(error.rpe_rot_rmse_deg, 6),
+    }
+
+
+def place_metrics(
+    graph: SemanticGraph, frames: list[tuple[float, str]], truth: PlaceTruth
+) -> dict[str, Any]:
+    """Return label accuracy of nodes and frames, and how the rooms were told apart."""
+    nodes, per_frame = evaluate_nodes(graph, truth), evaluate_frames(frames, truth)
+    instances = evaluate_instances(graph, truth)
+    return {
+        "place_accuracy": _rounded(nodes.overall),
+        "place_accuracy_per_frame": _rounded(per_frame.overall),
+        "place_accuracy_by_label": {
+            name: _rounded(value) for name, value in per_frame.per_label.items()
+        },
+        "rooms": list(instances.rooms),
+        "rooms_recovered": list(instances.recovered),
+        "rooms_matched": instances.matches,
+        "place_purity": _rounded(instances.purity),
+    }
+
+
+def _rounded(value: float) -> float | None:
+    return round(value, 4) if np.isfinite(value) else None

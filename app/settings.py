@@ -1,0 +1,189 @@
+"""All settings: order flag > TOML file > default."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Collection, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import Field, ValidationError
+
+from roomgraph.app.errors import AppError
+from roomgraph.datasets.files import write_text
+from roomgraph.datasets.settings import Settings
+from roomgraph.semantics.settings import SemanticsSettings
+from roomgraph.slam.checks import CheckSettings
+from roomgraph.slam.slam import SlamSettings
+
+
+class RecordingSettings(Settings):
+    """What is written on the way."""
+
+    map_every: int = Field(
+        16,
+        ge=2,
+        description="keyframes between two drawings of the growing map, at least: a 16th "
+        "of a large one",
+    )
+    checkpoint_every: int = Field(
+        200, ge=1, description="frames between two writings of the trajectory so far"
+    )
+
+
+class ViewerSettings(Settings):
+    """How much the Rerun recording holds."""
+
+    frame_every_s: float = Field(
+        0.2, ge=0, description="a frame is shown every so many seconds of the sequence; "
+        "lost and found ones and the last one always",
+    )  # fmt: skip
+    depth_every_s: float = Field(0.4, ge=0, description="the depth of a frame, likewise")
+    jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
+    depth_step: int = Field(3, ge=1, le=16, description="every n-th row and column of the depth")
+    max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
+    picture_spacing_m: float = Field(
+        1.5, gt=0, description="between keyframes whose pictures stand in the map"
+    )
+    picture_turn_deg: float = Field(
+        90.0, gt=0, le=180, description="or by how much nearer ones look elsewhere"
+    )
+    max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
+    max_points_total: int = Field(
+        1_500_000, ge=0, description="points of all maps on the way, spread over the frames"
+    )
+    max_points_final: int = Field(300_000, ge=1000, description="points of the last map")
+    point_radius_m: float = Field(0.013, gt=0, le=1, description="of the dense map's points")
+    headroom_m: float = Field(
+        0.7, gt=0, description="points higher than this above the path are hidden: the ceiling"
+    )
+    port: int = Field(9876, ge=1024, le=65535, description="where the live window listens")
+
+
+class AppSettings(Settings):
+    """Everything that can be set for a run."""
+
+    seed: int = Field(0, ge=0, description="of all random choices")
+    slam: SlamSettings = SlamSettings()
+    semantics: SemanticsSettings = SemanticsSettings()
+    viewer: ViewerSettings = ViewerSettings()
+    recording: RecordingSettings = RecordingSettings()
+    checks: CheckSettings = CheckSettings()
+
+
+def load_settings(
+    path: Path | None = None,
+    flags: Mapping[str, Any] | None = None,
+    only: Collection[str] | None = None,
+) -> AppSettings:
+    """Return the settings of a TOML file under those given as flags.
+
+    Parameters
+    ----------
+    path : Path, optional
+        A file like `roomgraph config` prints; what it leaves out keeps its default.
+    flags : mapping, optional
+        Values by dotted name (``"slam.max_depth_m"``); None means not given.
+    only : collection of str, optional
+        Dotted names of what is read of the file: a run made by another version may have others.
+
+    Raises
+    ------
+    AppError
+        The file cannot be read, or a name or value is not allowed.
+    """
+    values: dict[str, Any] = {}
+    if path is not None:
+        try:
+            values = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise AppError(
+                "settings cannot be read", where=path, expected="a TOML file", got=str(error),
+                hint="`roomgraph config` prints one to start from",
+            ) from error  # fmt: skip
+    if only is not None:
+        values = _chosen(values, only)
+    for name, value in (flags or {}).items():
+        if value is not None:
+            _set(values, name.split("."), value)
+    try:
+        return AppSettings.model_validate(values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        hint = "`roomgraph config` prints all settings with their defaults"
+        if first["type"] == "extra_forbidden":
+            raise AppError(
+                "no such setting", where=path or "command line",
+                expected=_likely(first["loc"]), got=name, hint=hint,
+            ) from error  # fmt: skip
+        raise AppError(
+            f"setting {name} is not allowed", where=path or "command line",
+            expected=first["msg"].removeprefix("Input should be "),
+            got=repr(first.get("input"))[:80], hint=hint,
+        ) from error  # fmt: skip
+
+
+def _likely(wrong: tuple[int | str, ...]) -> str:
+    """Return the setting that was most likely meant by a name, or all that its table has."""
+    table: Any = AppSettings()
+    for part in wrong[:-1]:
+        table = getattr(table, str(part))
+    names = list(type(table).model_fields)
+    meant = get_close_matches(str(wrong[-1]), names, n=1)
+    prefix = [str(part) for part in wrong[:-1]]
+    return " or ".join(".".join([*prefix, name]) for name in meant or names)
+
+
+def write_settings(path: Path, settings: AppSettings) -> None:
+    """Write resolved settings as TOML."""
+    write_text(path, to_toml(settings))
+
+
+def to_toml(settings: AppSettings) -> str:
+    """Return settings as TOML that `load_settings` reads."""
+    return tomli_w.dumps(settings.model_dump(mode="json", exclude_none=True))
+
+
+def to_commented_toml(settings: AppSettings) -> str:
+    """Return settings as TOML with the meaning of each, readable by `load_settings`."""
+    lines = ["# Settings of roomgraph. What you leave out keeps its default.", ""]
+    _comment(lines, settings, "")
+    return "\n".join(lines) + "\n"
+
+
+def _comment(lines: list[str], settings: Settings, table: str) -> None:
+    """Write a settings model's own values, then its parts as tables."""
+    values = settings.model_dump(mode="json", exclude_none=True)
+    parts = {n: v for n in values if isinstance(v := getattr(settings, n), Settings)}
+    for name, field in type(settings).model_fields.items():
+        if name in values and name not in parts:
+            value = tomli_w.dumps({name: values[name]}).strip()
+            lines.append(f"{value}  # {field.description}" if field.description else value)
+    for name, part in parts.items():
+        inner = f"{table}.{name}" if table else name
+        lines += ["", f"[{inner}]"]
+        _comment(lines, part, inner)
+
+
+def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
+    """Return only the named values and tables, where they are there."""
+    chosen: dict[str, Any] = {}
+    for name in names:
+        found: Any = values
+        for part in name.split("."):
+            found = found.get(part) if isinstance(found, dict) else None
+        if found is not None:
+            _set(chosen, name.split("."), found)
+    return chosen
+
+
+def _set(values: dict[str, Any], names: list[str], value: Any) -> None:
+    table: Any = values
+    for name in names[:-1]:
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            return  # validation says that a table was expected
+    table[names[-1]] = value

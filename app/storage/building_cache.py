@@ -1,0 +1,76 @@
+"""Rendered buildings on disk: written where asked for, or kept in a cache."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+import roomgraph.datasets.synthetic
+from roomgraph.app.console import Terminal
+from roomgraph.app.errors import AppError
+from roomgraph.datasets.synthetic.settings import BuildingSettings, Light
+
+
+def building_settings(**values: Any) -> BuildingSettings:
+    """Return checked settings of a building.
+
+    Raises
+    ------
+    AppError
+        A value is out of range.
+    """
+    try:
+        return BuildingSettings(**values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise AppError(
+            "building cannot be rendered", where=f"--{first['loc'][0]}".replace("_m", ""),
+            expected=first["msg"], got=repr(first["input"]),
+        ) from error  # fmt: skip
+
+
+def render(
+    directories: Mapping[Light, Path], settings: BuildingSettings, terminal: Terminal
+) -> None:
+    """Render one walk in one or several lights, a folder each, with a progress bar."""
+    from roomgraph.datasets.synthetic.writer import write_sequences
+
+    title = f"Rendering building {settings.seed} ({', '.join(directories)})"
+    with terminal.progress(title) as advance:
+        write_sequences(directories, settings, lambda done, total: advance(done, total, "frames"))
+
+
+def cached(lights: tuple[Light, ...], settings: BuildingSettings, terminal: Terminal) -> list[Path]:
+    """Return the sequences of a building in some lights, rendering those not in the cache.
+
+    The cache's folder names hold a digest of settings and renderer, so that nothing stale is used.
+    """
+    digest = _digest(settings)
+    root = _cache_root() / "buildings"
+    root.mkdir(parents=True, exist_ok=True)
+    directories = {light: root / f"building{settings.seed}-{light}-{digest}" for light in lights}
+    missing = {light: path for light, path in directories.items() if not path.exists()}
+    if missing:
+        render(missing, settings, terminal)
+    else:
+        terminal.say(f"Building {settings.seed} ({', '.join(lights)}) from {root}", dim=True)
+    return list(directories.values())
+
+
+def _digest(settings: BuildingSettings) -> str:
+    digest = hashlib.sha256(settings.model_dump_json(exclude={"light"}).encode())
+    for path in sorted(Path(roomgraph.datasets.synthetic.__file__).parent.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:10]
+
+
+def _cache_root() -> Path:
+    named = os.environ.get("ROOMGRAPH_CACHE")
+    if named:
+        return Path(named)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "roomgraph"

@@ -1,0 +1,103 @@
+"""Opening what the user points at, and remembering how it was opened."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import cast, get_args
+
+import tomli_w
+from pydantic import Field, ValidationError
+
+from roomgraph.app.errors import AppError
+from roomgraph.datasets.files import write_text
+from roomgraph.datasets.readers.registry import Layout, open_sequence
+from roomgraph.datasets.sequence import Sequence, select
+from roomgraph.datasets.settings import Settings
+
+
+class InputOptions(Settings):
+    """A sequence and how it is opened: what the flags of `roomgraph run` say."""
+
+    sequence: Path = Field(description="folder of the sequence")
+    dataset: str | None = Field(None, description="layout; guessed if left out")
+    camera: Path | None = Field(None, description="camera file in place of the sequence's own")
+    depth_scale: float | None = Field(None, gt=0, description="raw depth units a metre")
+    start: int = Field(0, ge=0, description="first frame")
+    frames: int | None = Field(None, ge=1, description="frames at most")
+    stride: int = Field(1, ge=1, description="every n-th frame")
+
+    def open(self) -> Sequence:
+        """Open the sequence.
+
+        Raises
+        ------
+        AppError
+            `dataset` names no layout.
+        DatasetError
+            The sequence cannot be opened, or no frame is left of it.
+        """
+        return open_input(
+            self.sequence, self.dataset, self.camera, self.depth_scale,
+            self.start, self.frames, self.stride,
+        )  # fmt: skip
+
+
+def open_input(
+    root: Path,
+    dataset: str | None = None,
+    camera: Path | None = None,
+    depth_scale: float | None = None,
+    start: int = 0,
+    frames: int | None = None,
+    stride: int = 1,
+) -> Sequence:
+    """Open a sequence as the flags say.
+
+    Raises
+    ------
+    AppError
+        `dataset` names no layout.
+    DatasetError
+        The sequence cannot be opened, or no frame is left of it.
+    """
+    if dataset is not None and dataset not in get_args(Layout):
+        raise AppError(
+            "no such layout", where="--dataset", expected=" or ".join(get_args(Layout)), got=dataset
+        )
+    sequence = open_sequence(root, cast(Layout | None, dataset), camera, depth_scale)
+    return select(sequence, start, frames, stride)
+
+
+def write_input(path: Path, options: InputOptions) -> None:
+    """Write options as TOML, paths in full, so that the sequence is found from anywhere.
+
+    What lies beside `path` is only named, so that the folder may be moved.
+    """
+    values = options.model_dump(mode="json", exclude_none=True)
+    for name in ("sequence", "camera"):
+        if name in values:
+            place = Path(values[name]).resolve()
+            values[name] = place.name if place.parent == path.resolve().parent else str(place)
+    write_text(path, tomli_w.dumps(values))
+
+
+def read_input(path: Path) -> InputOptions:
+    """Read what `write_input` wrote.
+
+    Raises
+    ------
+    AppError
+        The file cannot be read or does not hold such options.
+    """
+    try:
+        options = InputOptions.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ValidationError) as error:
+        raise AppError(
+            "input options cannot be read", where=path, expected="what `roomgraph run` writes",
+            got=str(error).splitlines()[0],
+        ) from error  # fmt: skip
+    beside = {"sequence": path.parent / options.sequence}
+    if options.camera is not None:
+        beside["camera"] = path.parent / options.camera
+    return options.model_copy(update=beside)

@@ -1,0 +1,119 @@
+"""Writes a run's files, as they come and at the end."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.app.storage.cloud import write_cloud
+from roomgraph.app.storage.occupancy import write_occupancy
+from roomgraph.app.storage.run_folder import FRAME_COLUMNS, UNREAD, RunFolder
+from roomgraph.app.storage.thumbnails import ThumbnailWriter
+from roomgraph.datasets.files import write_text
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.trajectory import Trajectory, write_tum
+from roomgraph.semantics.graph.files import write_graph_json, write_graphml
+from roomgraph.semantics.graph.graph import SemanticGraph
+from roomgraph.semantics.labels import LabelSpace, write_labels
+from roomgraph.semantics.temporal.labeller import FrameLabel
+from roomgraph.slam.backend.pose_graph import PoseGraph
+from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid
+from roomgraph.slam.reconstruction.point_map import PointMap
+from roomgraph.slam.relocalisation.keyframe_database import KeyframeMemory, write_memory
+from roomgraph.slam.tracking import Tracking, TrackingState
+
+
+class Recorder:
+    """Keeps a run's folder up to date, so that an interrupted run loses nothing."""
+
+    def __init__(self, folder: RunFolder) -> None:
+        self.folder = folder
+        self._file = folder.frames.open("w", newline="", encoding="utf-8")
+        self._rows = csv.writer(self._file, lineterminator="\n")
+        self._rows.writerow(FRAME_COLUMNS)
+        self._thumbnails = ThumbnailWriter(folder.thumbnails)
+
+    def add_frame(self, label: FrameLabel) -> None:
+        """Write a frame's row, as known so far."""
+        self._rows.writerow(_row(label))
+        self._file.flush()
+
+    def add_thumbnail(self, frame: Frame) -> None:
+        """Keep a small picture of a keyframe."""
+        self._thumbnails.add(frame.index, frame.colour)
+
+    def rewrite_frames(self, labels: Sequence[FrameLabel], unread_s: NDArray[np.float64]) -> None:
+        """Write all rows again as known at the end, with those that the run did not get to."""
+        self._file.close()
+        text = io.StringIO()
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(FRAME_COLUMNS)
+        rows.writerows(_row(label) for label in labels)
+        skipped = TrackingState.SKIPPED.value
+        rows.writerows((f"{t:.6f}", skipped, 0, "", "unknown", "0.0000", UNREAD) for t in unread_s)
+        write_text(self.folder.frames, text.getvalue())
+
+    def write_submap(self, number: int, trajectory: Trajectory) -> None:
+        """Write the way through a sub-map that never met the map, in a frame of its own."""
+        write_tum(self.folder.submap(number), trajectory)
+
+    def write_trajectory(self, trajectory: Trajectory) -> None:
+        """Write the poses of all tracked frames so far, as estimated now."""
+        write_tum(self.folder.trajectory, trajectory)
+
+    def write_pose_graph(self, graph: PoseGraph, stamps_s: Mapping[int, float]) -> None:
+        """Write the poses of keyframes, given with their stamps, and the links between them."""
+        T = np.array([graph[key] for key in stamps_s]).reshape(-1, 4, 4)
+        write_tum(self.folder.keyframes, Trajectory(np.array(list(stamps_s.values())), T))
+        graph.write_g2o(self.folder.pose_graph, set(stamps_s))
+
+    def write_memory(self, memory: KeyframeMemory | None) -> None:
+        """Write what is kept of the keyframes, if there are any."""
+        if memory is not None:
+            write_memory(self.folder.memory, memory)
+
+    def write_map(
+        self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace
+    ) -> None:
+        """Write what the labels mean, and the labelled cloud if there is one."""
+        write_labels(self.folder.labels, labels)
+        if len(points):
+            write_cloud(
+                self.folder.map, points.points_world, points.colours, label_ids, points.normals
+            )
+
+    def write_occupancy(self, grid: OccupancyGrid) -> None:
+        """Write where there is free way and where there is none."""
+        write_occupancy(self.folder.occupancy, grid)
+
+    def write_graph(self, graph: SemanticGraph) -> None:
+        """Write the topological graph."""
+        write_graph_json(self.folder.graph_json, graph)
+        write_graphml(self.folder.graphml, graph)
+
+    def write_metrics(self, metrics: Mapping[str, Any]) -> None:
+        """Write the run's figures."""
+        write_text(self.folder.metrics, json.dumps(metrics, indent=1) + "\n")
+
+    def close(self) -> None:
+        """Close the open files."""
+        self._file.close()
+        self._thumbnails.close()
+
+
+def _row(label: FrameLabel) -> tuple[str | int, ...]:
+    tracking = label.tracking
+    return (
+        f"{tracking.stamp_s:.6f}", tracking.state.value, tracking.inliers,
+        _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
+    )  # fmt: skip
+
+
+def _keyframe_of(tracking: Tracking) -> int | str:
+    return "" if tracking.anchor is None else tracking.anchor.keyframe

@@ -1,0 +1,238 @@
+"""The folder that a run leaves: the names of its files, made and read here only."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from roomgraph.app.errors import AppError
+from roomgraph.app.storage.input import InputOptions, read_input
+from roomgraph.datasets.camera import Camera
+from roomgraph.datasets.trajectory import Trajectory, read_tum
+
+# Only a folder that holds all of these is a run, and may be overwritten; they are written first.
+RUN_MARKS = ("config.toml", "input.toml")
+# The method of frames that a run did not get to.
+UNREAD = "unread"
+FRAME_COLUMNS = ("timestamp", "state", "inliers", "keyframe", "label", "score", "method")
+
+
+@dataclass(frozen=True, slots=True)
+class RunFolder:
+    """Where each product of a run lies."""
+
+    root: Path
+
+    @property
+    def trajectory(self) -> Path:
+        """A pose for each tracked frame."""
+        return self.root / "trajectory.tum"
+
+    def submap(self, number: int) -> Path:
+        """Return where the poses of a sub-map lie that never met the map, in a frame of its own."""
+        return self.root / f"submap_{number}.tum"
+
+    @property
+    def frames(self) -> Path:
+        """A row for every input frame."""
+        return self.root / "frames.csv"
+
+    @property
+    def keyframes(self) -> Path:
+        """Optimised keyframe poses."""
+        return self.root / "keyframes.tum"
+
+    @property
+    def pose_graph(self) -> Path:
+        """The optimised pose graph."""
+        return self.root / "pose_graph.g2o"
+
+    @property
+    def memory(self) -> Path:
+        """What is kept of the keyframes to recognise them by."""
+        return self.root / "keyframes.npz"
+
+    @property
+    def map(self) -> Path:
+        """The labelled, coloured cloud."""
+        return self.root / "map.ply"
+
+    @property
+    def occupancy(self) -> Path:
+        """The occupancy grid for ROS and Nav2, with its picture ``map.pgm`` beside it."""
+        return self.root / "map.yaml"
+
+    @property
+    def labels(self) -> Path:
+        """The label space."""
+        return self.root / "labels.json"
+
+    @property
+    def graph_json(self) -> Path:
+        """The topological graph as node-link JSON."""
+        return self.root / "graph.json"
+
+    @property
+    def graphml(self) -> Path:
+        """The topological graph as GraphML."""
+        return self.root / "graph.graphml"
+
+    @property
+    def metrics(self) -> Path:
+        """Figures of the run."""
+        return self.root / "metrics.json"
+
+    @property
+    def thumbnails(self) -> Path:
+        """Small pictures of the keyframes."""
+        return self.root / "thumbnails.zip"
+
+    @property
+    def floor_plan_png(self) -> Path:
+        """The floor plan as a picture."""
+        return self.root / "floorplan.png"
+
+    @property
+    def floor_plan_svg(self) -> Path:
+        """The floor plan as a drawing."""
+        return self.root / "floorplan.svg"
+
+    @property
+    def report(self) -> Path:
+        """The page that shows what a run found."""
+        return self.root / "report.html"
+
+    @property
+    def config(self) -> Path:
+        """Resolved settings."""
+        return self.root / "config.toml"
+
+    @property
+    def input(self) -> Path:
+        """What the run was made from: the sequence and how it was opened."""
+        return self.root / "input.toml"
+
+    @property
+    def camera(self) -> Path:
+        """The camera as the data mended it; only where that was needed."""
+        return self.root / "camera.json"
+
+    @property
+    def log(self) -> Path:
+        """What was logged."""
+        return self.root / "run.log"
+
+    @property
+    def recording(self) -> Path:
+        """The Rerun recording."""
+        return self.root / "recording.rrd"
+
+    @property
+    def model(self) -> Path:
+        """The place model that a demonstration learned for its run."""
+        return self.root / "model"
+
+    def read_metrics(self) -> dict[str, Any]:
+        """Return the run's figures."""
+        try:
+            values: dict[str, Any] = json.loads(self.existing(self.metrics).read_text("utf-8"))
+        except ValueError as error:
+            raise AppError(
+                "figures of the run cannot be read", where=self.metrics, got=str(error)
+            ) from error
+        if not str(values.get("schema", "")).startswith("roomgraph/metrics/"):
+            raise AppError(
+                "figures of another kind", where=self.metrics, expected="schema roomgraph/metrics/1"
+            )
+        return values
+
+    def read_input(self) -> InputOptions:
+        """Return how the run's sequence was opened."""
+        return read_input(self.existing(self.input))
+
+    def read_camera(self) -> Camera | None:
+        """Return the camera of the run's sequence, as it was opened; None if that is gone."""
+        source = self.read_input()
+        return source.open().camera if source.sequence.is_dir() else None
+
+    def read_trajectory(self) -> Trajectory:
+        """Return the poses of the tracked frames."""
+        return read_tum(self.existing(self.trajectory))
+
+    def read_frames(self) -> list[dict[str, str]]:
+        """Return the rows of frames.csv."""
+        with self.existing(self.frames).open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def existing(self, path: Path) -> Path:
+        """Return a product's path.
+
+        Raises
+        ------
+        AppError
+            It is not there.
+        """
+        if not path.exists():
+            raise AppError(
+                "not a run's folder, or the run did not end", where=self.root,
+                expected=path.name, got="no such file",
+                hint="`roomgraph run SEQUENCE -o DIR` makes one",
+            )  # fmt: skip
+        return path
+
+
+def make_run_folder(output: Path | None, name: str, overwrite: bool) -> RunFolder:
+    """Make an empty run folder: `output`, or a new one below ``results/<name>/``.
+
+    Raises
+    ------
+    AppError
+        `output` is there already and `overwrite` is not given, or holds something else than a run.
+    """
+    if output is None:
+        parent = Path("results") / name
+        root = parent / datetime.now().strftime("%Y-%m-%d_%H-%M-%S-%f")
+        root.mkdir(parents=True)
+        latest = parent / "latest"
+        latest.unlink(missing_ok=True)
+        latest.symlink_to(root.name)
+        return RunFolder(root)
+    clear_output(output, overwrite, RUN_MARKS)
+    output.mkdir(parents=True)
+    return RunFolder(output)
+
+
+def clear_output(output: Path, overwrite: bool, marks: tuple[str, ...]) -> None:
+    """Make way for a folder to be written; only one that holds all of `marks` is ever removed."""
+    if not output.exists() or (output.is_dir() and not any(output.iterdir())):
+        if output.exists():
+            output.rmdir()
+        return
+    if not overwrite:
+        raise AppError(
+            "output exists already", where=output, expected="a new folder",
+            hint="choose another with -o, or give --overwrite",
+        )  # fmt: skip
+    if output.is_symlink() or not all((output / mark).exists() for mark in marks):
+        raise AppError(
+            "output is not ours to overwrite", where=output,
+            expected=f"a folder with {' and '.join(marks)}",
+            got="another kind of folder or file", hint="choose another with -o",
+        )  # fmt: skip
+    shutil.rmtree(output)
+
+
+def refuse_existing(output: Path, overwrite: bool) -> None:
+    """Raise where a file to be written is there already, or its folder is not."""
+    if not output.resolve().parent.is_dir():
+        raise AppError("no such folder", where=output.parent, expected="an existing folder")
+    if output.exists() and not overwrite:
+        raise AppError(
+            "output exists already", where=output, expected="a new file",
+            hint="choose another with -o, or give --overwrite",
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""What a viewer is shown, and the viewer that records for Rerun."""

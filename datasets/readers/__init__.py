@@ -1,0 +1,1 @@
+"""Recorded sequences: a file for each layout on disk."""

@@ -1,0 +1,1 @@
+"""From a vector to the kind of place, with calibrated probabilities."""

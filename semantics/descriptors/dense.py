@@ -1,0 +1,148 @@
+"""Dense local descriptors: gradient histograms on a grid over the image, at several scales."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from roomgraph.datasets.settings import Settings
+
+FloatArray = NDArray[np.float32]
+
+ORIENTATIONS = 8
+CELLS = 4
+LENGTH = CELLS * CELLS * ORIENTATIONS
+# SIFT's limit on one number of a unit descriptor: what a highlight or an edge may contribute.
+_LIMIT = 0.2
+# An image is never made smaller than two descriptors across.
+_SMALLEST = 2
+
+
+class DenseSettings(Settings):
+    """Where an image is described, and how coarsely."""
+
+    side: int = Field(
+        200, ge=48, le=1024, description="images are resized to this many pixels squared, any shape"
+    )
+    scales: int = Field(4, ge=1, le=8, description="sizes of the image, a root of two apart")
+    cell: int = Field(4, ge=2, le=16, description="pixels a cell; a descriptor has 4 x 4 cells")
+    step: int = Field(5, ge=1, le=32, description="pixels between two descriptors")
+    contrast: float = Field(
+        10.0, gt=0, le=100,
+        description="length of a gradient histogram that counts half: flat patches count less",
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class DenseDescriptors:
+    """What one image looks like, everywhere.
+
+    Attributes
+    ----------
+    descriptors : (N, 128) float32
+        RootSIFT without rotation, of length 1 where there is contrast, shorter where not.
+    positions : (N, 2) float32
+        Of their centres across and down, -0.5 to 0.5 of the image's width and height.
+    """
+
+    descriptors: FloatArray
+    positions: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.descriptors)
+
+
+def describe_densely(colour: NDArray[np.uint8], settings: DenseSettings) -> DenseDescriptors:
+    """Return the dense descriptors of a (H, W, 3) RGB or (H, W) grey image.
+
+    SIFT's descriptor (Lowe, 2004) on a regular grid and without its orientation, as scenes are
+    described (Lazebnik et al., 2006), with the root taken (Arandjelovic and Zisserman, 2012).
+    The histograms of all cells come from one triangular filter over eight images of gradients.
+    """
+    return describe_small(small_grey(colour, settings), settings)
+
+
+def small_grey(colour: NDArray[np.uint8], settings: DenseSettings) -> NDArray[np.uint8]:
+    """Return the grey image (h, w) of ``side * side`` pixels that the descriptors are made from."""
+    grey = cv2.cvtColor(colour, cv2.COLOR_RGB2GRAY) if colour.ndim == 3 else colour
+    return np.asarray(_resized(grey, settings, settings.side / np.sqrt(grey.size)), dtype=np.uint8)
+
+
+def describe_small(grey: NDArray[np.uint8], settings: DenseSettings) -> DenseDescriptors:
+    """Return the dense descriptors of an image from `small_grey`."""
+    levels = [_level(grey, settings, 2.0 ** (-i / 2)) for i in range(settings.scales)]
+    return DenseDescriptors(
+        np.concatenate([descriptors for descriptors, _ in levels]),
+        np.concatenate([positions for _, positions in levels]),
+    )
+
+
+def _level(
+    grey: NDArray[np.uint8], settings: DenseSettings, scale: float
+) -> tuple[FloatArray, FloatArray]:
+    image = _resized(grey, settings, scale).astype(np.float32)
+    height, width = image.shape
+    cells = _cell_histograms(_orientations(image), settings.cell)
+    rows, columns = (_centres(n, settings) for n in (height, width))
+    # Cell centres lie 1.5 and 0.5 cells to either side of a descriptor's own.
+    offsets = (np.arange(CELLS) - (CELLS - 1) / 2) * settings.cell
+    y = np.rint(rows[:, None] + offsets).astype(np.intp)
+    x = np.rint(columns[:, None] + offsets).astype(np.intp)
+    blocks = cells[y[:, None, :, None], x[None, :, None, :]]
+    across, down = np.meshgrid(columns / width - 0.5, rows / height - 0.5)
+    positions = np.column_stack([across.ravel(), down.ravel()]).astype(np.float32)
+    return _root(blocks.reshape(-1, LENGTH), settings.contrast), positions
+
+
+def _resized(grey: NDArray[np.uint8], settings: DenseSettings, factor: float) -> NDArray[np.uint8]:
+    height, width = grey.shape
+    smallest = _SMALLEST * CELLS * settings.cell
+    size = (max(smallest, round(width * factor)), max(smallest, round(height * factor)))
+    method = cv2.INTER_AREA if size[0] < width else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(grey, size, interpolation=method), dtype=np.uint8)
+
+
+def _orientations(image: FloatArray) -> FloatArray:
+    """Return gradient magnitudes (H, W, 8), shared between the two nearest orientations."""
+    image = cv2.GaussianBlur(image, (0, 0), 0.7).astype(np.float32)
+    gx = cv2.Sobel(image, cv2.CV_32F, 1, 0, ksize=1, scale=0.5)
+    gy = cv2.Sobel(image, cv2.CV_32F, 0, 1, ksize=1, scale=0.5)
+    magnitude, angle = cv2.cartToPolar(gx, gy)
+    where = angle.ravel() * np.float32(ORIENTATIONS / (2 * np.pi))
+    lower = where.astype(np.int32)
+    upper_share = magnitude.ravel() * (where - lower)
+    first = np.arange(0, ORIENTATIONS * where.size, ORIENTATIONS, dtype=np.int32)
+    found = np.zeros(ORIENTATIONS * where.size, dtype=np.float32)
+    # ORIENTATIONS is a power of two: the last bits are the remainder.
+    found[first + (lower & (ORIENTATIONS - 1))] = magnitude.ravel() - upper_share
+    found[first + ((lower + 1) & (ORIENTATIONS - 1))] = upper_share
+    return found.reshape(*image.shape, ORIENTATIONS)
+
+
+def _cell_histograms(orientations: FloatArray, cell: int) -> FloatArray:
+    """Return the histogram of the cell around each pixel, pixels weighted by a triangle."""
+    triangle = (cell - np.abs(np.arange(1 - cell, cell))).astype(np.float32) / cell**2
+    return np.asarray(
+        cv2.sepFilter2D(orientations, -1, triangle, triangle, borderType=cv2.BORDER_CONSTANT),
+        dtype=np.float32,
+    )
+
+
+def _centres(length: int, settings: DenseSettings) -> NDArray[np.float64]:
+    """Return the centres of descriptors that lie wholly within `length` pixels."""
+    margin = (CELLS / 2) * settings.cell
+    return np.arange(margin, length - margin, settings.step)
+
+
+def _root(blocks: FloatArray, contrast: float) -> FloatArray:
+    """Normalise descriptors (N, 128), limit large numbers, and take the root."""
+    length = np.sqrt(np.einsum("ij,ij->i", blocks, blocks))[:, None]
+    found = blocks / np.maximum(length, 1e-6)
+    np.minimum(found, _LIMIT, out=found)
+    scale = length / (length + contrast) / np.maximum(found.sum(axis=1, keepdims=True), 1e-6)
+    found *= scale
+    return np.asarray(np.sqrt(found, out=found), dtype=np.float32)

@@ -1,0 +1,1 @@
+"""How right labels, probabilities, places and graphs are."""

@@ -1,0 +1,97 @@
+"""Labels along a route: frame by frame, voted, filtered, and smoothed over the graph."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.semantics.evaluation.trials import Trial
+from roomgraph.semantics.graph.belief import propagate
+from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
+from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
+from roomgraph.slam.tracking import Tracking, TrackingState
+
+NODE_M = 1.0
+
+
+def route_trials(
+    model: PlaceModel,
+    predictions: Sequence[PlacePrediction],
+    truth: Sequence[str],
+    positions: NDArray[np.float64],
+) -> list[Trial]:
+    """Return how right the labels of frames and nodes are, with and without neighbours.
+
+    Parameters
+    ----------
+    model : PlaceModel
+        What predicted.
+    predictions : sequence of PlacePrediction
+        Of each frame alone, in time order.
+    truth : sequence of str
+        The true label of each.
+    positions : (N, 3) float64
+        Where the frames were taken, metres.
+    """
+    known = np.array(truth)
+    alone = np.array([prediction.label for prediction in predictions])
+    voted = _labelled(model, predictions, positions, "vote")
+    filtered = _labelled(model, predictions, positions, "filter")
+    nodes = nodes_along(positions)
+    smoothed = _smoothed(model, predictions, positions, nodes)
+    rows = {
+        "frames alone": (known, alone),
+        "frames, vote": (known, voted),
+        "frames, filter": (known, filtered),
+        "nodes alone": (known[nodes], alone[nodes]),
+        "nodes, vote": (known[nodes], voted[nodes]),
+        "nodes, filter": (known[nodes], filtered[nodes]),
+        "nodes, smoothed": (known[nodes], smoothed),
+    }
+    return [Trial(row, true, found) for row, (true, found) in rows.items()]
+
+
+def nodes_along(positions: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Return the frames (M,) at which another metre has been travelled, the first among them."""
+    steps = np.linalg.norm(np.diff(positions, axis=0), axis=1)
+    metres = np.concatenate([[0.0], np.cumsum(steps)]) / NODE_M
+    return np.asarray(np.unique(np.floor(metres + 1e-9), return_index=True)[1])
+
+
+def _labelled(
+    model: PlaceModel,
+    predictions: Sequence[PlacePrediction],
+    positions: NDArray[np.float64],
+    method: str,
+) -> NDArray[np.str_]:
+    labeller = PlaceLabeller(model, LabellerSettings.model_validate({"method": method}))
+    found = []
+    for i, (prediction, position) in enumerate(zip(predictions, positions, strict=True)):
+        T = np.eye(4)
+        T[:3, 3] = position
+        tracking = Tracking(i, float(i), TrackingState.OK, 0, "none", None, T, False)
+        found += labeller.take(tracking, prediction)
+    return np.array([label.label for label in [*found, *labeller.finish()]])
+
+
+def _smoothed(
+    model: PlaceModel,
+    predictions: Sequence[PlacePrediction],
+    positions: NDArray[np.float64],
+    nodes: NDArray[np.intp],
+) -> NDArray[np.str_]:
+    """Return the labels of nodes from the mean looks of their frames, given their neighbours."""
+    parts = np.split(np.array([p.probabilities[1:] for p in predictions]), nodes[1:])
+    edges = [(i, i + 1, NODE_M) for i in range(len(nodes) - 1)]
+    places = positions[nodes]
+    for i in range(len(nodes)):
+        lengths = np.linalg.norm(places[: max(0, i - 5)] - places[i], axis=1)
+        if len(lengths) and lengths.min() < 0.6 * NODE_M:
+            edges.append((int(lengths.argmin()), i, float(lengths.min())))
+    beliefs = propagate(
+        np.array([part.mean(axis=0) for part in parts]), edges, model.transitions,
+        LabellerSettings().change_m,
+    )  # fmt: skip
+    return np.asarray(np.array(model.labels.names[1:])[beliefs.argmax(axis=1)])

@@ -1,0 +1,1 @@
+"""The semantic topological graph: nodes, instances, routes, corrections and files."""

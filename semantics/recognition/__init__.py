@@ -1,0 +1,1 @@
+"""Place models: labelled images, training, saving, prediction."""

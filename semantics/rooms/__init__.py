@@ -1,0 +1,1 @@
+"""Rooms from the free space of the map: regions, outlines, doorways."""

@@ -1,0 +1,1 @@
+"""Labels over time: one image's prediction among its neighbours."""

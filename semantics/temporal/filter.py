@@ -1,0 +1,99 @@
+"""A hidden Markov model of places: one does not step from a kitchen into a bathroom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.semantics.recognition.transitions import without_staying
+
+FloatArray = NDArray[np.float64]
+
+# Below this a look would rule a place out for good, whatever comes after.
+_LEAST = 1e-3
+# Looks from one spot count a little, so that a long stay says something in the end.
+_LEAST_WEIGHT = 0.1
+
+
+class PlaceFilter:
+    """Which kind of place the camera is in, from all looks so far.
+
+    The states are the kinds of place. The chance of having left one grows with the way walked
+    since the last look, ``1 - exp(-way / change_m)``; where to follows `transitions`, which are
+    counted in the walks that the model was learned from: the graph of the places' kinds. Looks at
+    nearly the same view are not independent, so each counts for the way that it is away from the
+    last one, at most as one.
+
+    Parameters
+    ----------
+    transitions : (K, K) float64
+        Chance of each kind (column) after leaving a kind (row); rows sum to one, the diagonal is
+        not used.
+    change_m : float
+        Metres walked in one kind of place, on average.
+    independent_m : float
+        Looks this far apart say independent things.
+    """
+
+    def __init__(
+        self, transitions: FloatArray, change_m: float, independent_m: float = 0.5
+    ) -> None:
+        self.transitions = without_staying(transitions)
+        self.change_m, self.independent_m = change_m, independent_m
+        self._belief: FloatArray | None = None
+
+    def advance(self, way_m: float, probabilities: FloatArray) -> FloatArray:
+        """Take a look for good and return the belief (K,) after it.
+
+        Parameters
+        ----------
+        way_m : float
+            From the last look to this one, metres (see `Odometer`).
+        probabilities : (K,) float64
+            What the look alone says.
+        """
+        (moves,), (seen,) = self._moves([way_m]), self._evidence(probabilities[None], [way_m])
+        self._belief = self._step(self._belief, moves, seen)
+        return self._belief
+
+    def smoothed(self, ways_m: Sequence[float], probabilities: FloatArray) -> FloatArray:
+        """Return the beliefs (N, K) at N looks, each given all of them and those taken for good.
+
+        The forward-backward algorithm (Rabiner, 1989); the looks are not taken for good.
+
+        Parameters
+        ----------
+        ways_m : (N,) sequence of float
+            To each look from the one before it, metres.
+        probabilities : (N, K) float64
+            What each look alone says.
+        """
+        moves, evidence = self._moves(ways_m), self._evidence(probabilities, ways_m)
+        beliefs, belief = np.empty(evidence.shape), self._belief
+        for i, seen in enumerate(evidence):
+            belief = beliefs[i] = self._step(belief, moves[i], seen)
+        backward = np.ones(len(self.transitions))
+        for i in range(len(evidence) - 1, 0, -1):
+            backward = moves[i] @ (evidence[i] * backward)
+            backward /= backward.sum()
+            beliefs[i - 1] *= backward
+        return np.asarray(beliefs / beliefs.sum(axis=1, keepdims=True))
+
+    def _step(
+        self, belief: FloatArray | None, moves: FloatArray, evidence: FloatArray
+    ) -> FloatArray:
+        """Return the belief (K,) after walking and looking."""
+        found = evidence if belief is None else (belief @ moves) * evidence
+        return np.asarray(found / found.sum())
+
+    def _moves(self, ways: Sequence[float]) -> FloatArray:
+        """Return the chance (N, K, K) of each kind (column) after each way from each kind (row)."""
+        leave = -np.expm1(-np.asarray(ways) / self.change_m)[:, None, None]
+        return np.asarray((1 - leave) * np.eye(len(self.transitions)) + leave * self.transitions)
+
+    def _evidence(self, probabilities: FloatArray, ways: Sequence[float]) -> FloatArray:
+        """Return how well each look (N, K) fits each kind, given the way to it."""
+        weights = np.clip(np.asarray(ways) / self.independent_m, _LEAST_WEIGHT, 1.0)
+        return np.asarray(np.maximum(probabilities, _LEAST) ** weights[:, None])

@@ -1,0 +1,1 @@
+"""Keyframes in the background: constraints, bundle adjustment, loops and the pose graph."""

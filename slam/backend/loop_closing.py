@@ -1,0 +1,127 @@
+"""Finding loops: which keyframes to compare with, and which comparisons to believe."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from roomgraph.datasets import se3
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.backend.alignment import Linker, Measured
+from roomgraph.slam.backend.loop_verification import BeliefSettings, LoopBelief
+from roomgraph.slam.backend.pose_graph import PoseGraph
+from roomgraph.slam.features.view import View
+from roomgraph.slam.geometry.overlap import overlap
+from roomgraph.slam.keyframe import Keyframe
+from roomgraph.slam.relocalisation.word_index import AppearanceIndex, AppearanceSettings
+
+FloatArray = NDArray[np.float64]
+
+
+class LoopSettings(Settings):
+    """When two keyframes are tried, and when they close a loop."""
+
+    enabled: bool = Field(True, description="look for loops")
+    min_way_m: float = Field(
+        0.0,
+        ge=0,
+        le=1000,
+        description="way along links in between, at least: nearer ones gain little",
+    )
+    candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
+    neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
+    min_similarity: float = Field(
+        0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
+    )
+    max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
+    max_angle_deg: float = Field(45.0, gt=0, le=180, description="and axes up to this apart")
+    min_inliers: int = Field(30, ge=10, description="matches that must agree")
+    min_agreement: float = Field(
+        0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
+    )
+    min_correlation: float = Field(
+        0.7, ge=-1, le=1, description="of the grey levels of the surface that both show, at least"
+    )
+    belief: BeliefSettings = BeliefSettings()
+
+
+class LoopCloser:
+    """Proposes loop candidates by appearance and by position, and verifies them by geometry."""
+
+    def __init__(
+        self, settings: LoopSettings, appearance: AppearanceSettings, linker: Linker
+    ) -> None:
+        self.settings, self.linker = settings, linker
+        self.index = AppearanceIndex(appearance)
+        self.belief = LoopBelief(settings.belief)
+
+    def close(
+        self,
+        view: View,
+        keyframe: Keyframe,
+        keyframes: dict[int, Keyframe],
+        graph: PoseGraph,
+        known: set[int],
+    ) -> list[Measured]:
+        """Return the loop links to take, now that a keyframe is in the graph, and index it.
+
+        A loop that others confirm later is returned with these, so not all need be the new
+        keyframe's.
+
+        Parameters
+        ----------
+        known : set of int
+            Keyframes that it is linked to anyway; they close no loop.
+        """
+        taken: list[Measured] = []
+        if self.settings.enabled:
+            known = known | graph.around(keyframe.id, self.settings.min_way_m)
+            tried = self._alike(keyframe, known)
+            tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
+            for candidate in tried:
+                measured = self.linker.between(view, keyframe, keyframes[candidate])
+                if measured is not None and self.is_sound(
+                    measured.inliers, se3.inverse(measured.link.T_first_second), view,
+                    keyframes[candidate],
+                ):  # fmt: skip
+                    taken = self.belief.admit(measured, graph, keyframe.intrinsics.view_deg)
+                    break
+        self.index.add(keyframe.id, keyframe.words)
+        return taken
+
+    def alike(self, view: View, count: int) -> list[int]:
+        """Return the keyframes that look most like a view, for relocalisation."""
+        words = self.index.words_of(view.features.descriptors, grow=False)
+        return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
+
+    def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:
+        """Whether a motion between look-alikes rests on enough matches, on depth and on looks."""
+        if inliers < self.settings.min_inliers:
+            return False
+        common = overlap(other.thumbnail, view.thumbnail, T_view_other)
+        return common.depth_agreement >= self.settings.min_agreement and common.looks_alike(
+            self.settings.min_correlation
+        )
+
+    def _alike(self, keyframe: Keyframe, known: set[int]) -> list[int]:
+        ranked = self.index.rank(keyframe.words, before=keyframe.id)
+        likeness = dict(ranked)
+        enough = self.settings.min_similarity * likeness.get(keyframe.id - 1, 0.0)
+        return [
+            other
+            for other, score in ranked[: self.settings.candidates + len(known)]
+            if score > enough and other not in known
+        ][: self.settings.candidates]
+
+    def _nearby(self, keyframe: int, graph: PoseGraph, known: set[int]) -> list[int]:
+        """Return old keyframes that should see the same by their pose, the nearest first."""
+        others, T_world_other = graph.stacked()
+        T = se3.inverse(graph[keyframe]) @ T_world_other
+        distance = np.linalg.norm(T[:, :3, 3], axis=1)
+        # How far apart the optical axes point.
+        angle = np.degrees(np.arccos(np.clip(T[:, 2, 2], -1, 1)))
+        near = (distance < self.settings.max_distance_m) & (angle < self.settings.max_angle_deg)
+        order = np.argsort(distance + angle / 45.0, kind="stable")
+        ordered = (int(others[i]) for i in order if near[i])
+        return [k for k in ordered if k not in known and k < keyframe][: self.settings.neighbours]

@@ -1,0 +1,188 @@
+"""The keyframes, the graph that holds them together, and how a new one joins."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.slam.backend.alignment import Linker
+from roomgraph.slam.backend.local_bundle_adjustment import Window
+from roomgraph.slam.backend.loop_closing import LoopCloser
+from roomgraph.slam.backend.pose_graph import Link, PoseGraph
+from roomgraph.slam.features.view import View
+from roomgraph.slam.frontend.estimate import Estimate
+from roomgraph.slam.frontend.keyframe_selection import KeyframeSettings
+from roomgraph.slam.frontend.local_map import LocalMap, like_minded, local_map
+from roomgraph.slam.geometry.noise import SensorNoise
+from roomgraph.slam.geometry.planes import PlaneSettings, extract_planes
+from roomgraph.slam.geometry.range_image import range_image_of
+from roomgraph.slam.keyframe import Keyframe
+from roomgraph.slam.reconstruction.point_map import MapSettings
+from roomgraph.slam.tracking import LoopClosure
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class MapUpdate:
+    """What became known with a keyframe.
+
+    Attributes
+    ----------
+    keyframe : Keyframe
+        The new one.
+    poses : dict of int to (4, 4) float64
+        T_world_keyframe of all, as estimated now.
+    closures : tuple of LoopClosure
+        Loops that it closed.
+    links : tuple of Link
+        All links that hold.
+    placed : frozenset of int
+        Keyframes of the sub-map that is the world.
+    """
+
+    keyframe: Keyframe
+    poses: dict[int, FloatArray]
+    closures: tuple[LoopClosure, ...]
+    links: tuple[Link, ...]
+    placed: frozenset[int]
+
+
+class Mapper:
+    """Owns keyframes and pose graph; all world positions come from here."""
+
+    def __init__(
+        self,
+        settings: KeyframeSettings,
+        planes: PlaneSettings,
+        cloud: MapSettings,
+        noise: SensorNoise,
+        linker: Linker,
+        loops: LoopCloser,
+        window: Window,
+        graph: PoseGraph,
+        seed: int = 0,
+    ) -> None:
+        self.settings, self.planes, self.cloud, self.noise = settings, planes, cloud, noise
+        self.linker, self.loops, self.graph, self.seed = linker, loops, graph, seed
+        self.window = window
+        self.keyframes: dict[int, Keyframe] = {}
+        self.closures: list[LoopClosure] = []
+        self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
+
+    def describe(self, keyframe_id: int, view: View) -> Keyframe:
+        """Make a keyframe of a view; may run ahead in a thread of its own.
+
+        Of the map it only changes the vocabulary, which grows on the way: views are to come in
+        order.
+        """
+        frame = view.frame
+        image = range_image_of(frame, self.cloud.stride, self.cloud.max_depth_m)
+        planes = (
+            extract_planes(image.points.astype(np.float64), self.noise, self.planes, self.seed)
+            if self.planes.enabled
+            else ()
+        )
+        return Keyframe(
+            keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
+            self.loops.index.words_of(view.features.descriptors), planes, image, frame.intrinsics,
+        )  # fmt: skip
+
+    def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
+        """Take in the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
+        self.graph.add_keyframe(keyframe.id, T_world_camera, starts_component=True)
+        self.window.add(keyframe)
+        return self._finish(view, keyframe)
+
+    def insert(self, keyframe: Keyframe, view: View, estimate: Estimate) -> MapUpdate:
+        """Take in a keyframe whose pose is known; link it to those around."""
+        T_world_camera = self.graph[estimate.reference] @ estimate.anchor.T_keyframe_camera
+        self.graph.add_keyframe(keyframe.id, T_world_camera)
+        self.window.add(keyframe)
+        for link in self._links(view, keyframe, estimate):
+            self._add(link)
+        self.keyframes[keyframe.id] = keyframe
+        self._adjust(keyframe.id)
+        return self._finish(view, keyframe)
+
+    def _adjust(self, newest: int) -> None:
+        """Adjust the latest keyframes on their landmarks, and take their links from that."""
+        if not self.window.settings.enabled:
+            return
+        self.graph.optimise()
+        T_world = self.graph.poses
+        latest = [k for k in sorted(T_world)[-self.window.settings.size :]]
+        around = set(latest).union(*(self._neighbours[k] for k in latest))
+        adjusted = self.window.adjust(newest, around, self.keyframes, T_world)
+        if adjusted:
+            self.graph.measure_again(adjusted, since=min(set(adjusted) & set(latest)))
+
+    def _finish(self, view: View, keyframe: Keyframe) -> MapUpdate:
+        """Close loops and bring all poses up to date."""
+        self.keyframes[keyframe.id] = keyframe
+        known = self._neighbours[keyframe.id].union(
+            *(self._neighbours[k] for k in self._neighbours[keyframe.id])
+        )
+        measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
+        for link in (link for loop in measured for link in loop.links):
+            self._add(link)
+        closures = tuple(
+            LoopClosure(loop.link.second, loop.link.first, loop.inliers) for loop in measured
+        )
+        self.closures.extend(closures)
+        for link in self.graph.optimise():
+            self._forget(link)
+        closures = tuple(closure for closure in closures if closure in self.closures)
+        return MapUpdate(
+            keyframe, self.graph.poses, closures, tuple(self.graph.links),
+            frozenset(self.graph.members_of(self.graph.world)),
+        )  # fmt: skip
+
+    def around(self, reference: int) -> LocalMap:
+        """Return the points of a keyframe and of those linked to it that look the same way."""
+        T_world = self.graph.poses
+        chosen = like_minded(
+            reference, self._neighbours[reference], T_world, self.settings.neighbours
+        )
+        return local_map([(self.keyframes[k], T_world[k]) for k in chosen])
+
+    def _links(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Link]:
+        """Measure the motion to each keyframe around; add how it was tracked unless by these."""
+        located = self.linker.tracker.guided(
+            view, self.around(estimate.reference), estimate.T_camera_reference, scale=0.25
+        )
+        links = []
+        if located is not None:
+            measured = self.linker.from_tracking(view, keyframe, self.keyframes, located)
+            owners = located.local_map.owners[located.matches[:, 0]]
+            for owner in np.unique(owners).tolist():
+                chosen = located.matches[owners == owner]
+                rows = np.column_stack([located.local_map.rows[chosen[:, 0]], chosen[:, 1]])
+                self.window.match(keyframe, self.keyframes[owner], rows)
+            links = [link for m in measured for link in m.links]
+        if not links:
+            T = estimate.anchor.T_keyframe_camera
+            links.append(
+                Link(
+                    estimate.reference, keyframe.id, T, estimate.information, is_loop=False,
+                    by="depth",
+                )
+            )  # fmt: skip
+        return links
+
+    def _add(self, link: Link) -> None:
+        self.graph.add_link(link)
+        self._neighbours[link.first].add(link.second)
+        self._neighbours[link.second].add(link.first)
+
+    def _forget(self, rejected: Link) -> None:
+        """Drop a loop that turned out wrong."""
+        ends = rejected.second, rejected.first
+        self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
+        between = {rejected.first, rejected.second}
+        if not any({link.first, link.second} == between for link in self.graph.links):
+            self._neighbours[rejected.first].discard(rejected.second)
+            self._neighbours[rejected.second].discard(rejected.first)

@@ -1,0 +1,290 @@
+"""The pose graph over keyframes, in one part or several that no link joins yet."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Container, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import gtsam
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.datasets import se3
+from roomgraph.datasets.files import replacing
+from roomgraph.slam.backend.connectivity import Connections
+from roomgraph.slam.backend.solver import Link, PoseGraphSettings, Solver, deviations, factor_of
+from roomgraph.slam.errors import SlamError
+
+__all__ = ["Link", "PoseGraph", "PoseGraphSettings"]
+
+FloatArray = NDArray[np.float64]
+
+# Between, only poses near new links are read back: the others move less than iSAM2's threshold.
+REFRESH_EVERY = 16
+
+
+class PoseGraph:
+    """Keyframe poses that agree best with all links between them.
+
+    Keyframe ids count up, and serve as keys. The graph may consist of several components
+    (sub-maps): the first keyframe of each is held at the pose it is added with. The first link
+    between two components joins them: the younger moves as a whole, and hangs on its links alone
+    from then on. So the world's frame stays that of the oldest keyframe.
+
+    Attributes
+    ----------
+    links : list of Link
+        All links that hold.
+    rejected : list of Link
+        Loops that were taken out again because the others contradicted them.
+    """
+
+    def __init__(self, settings: PoseGraphSettings) -> None:
+        self.settings = settings
+        self.links: list[Link] = []
+        self.rejected: list[Link] = []
+        self._ids: list[int] = []
+        self._T: FloatArray = np.empty((0, 4, 4))
+        self._connections = Connections()
+        self._solver = Solver(settings)
+        self._numbers: list[int] = []
+        self._touched: set[int] = set()
+        self._is_stale = self._is_bent = False
+        self._updates = 0
+
+    def __len__(self) -> int:
+        return len(self._ids)
+
+    def __contains__(self, keyframe: int) -> bool:
+        return keyframe in self._connections
+
+    def __getitem__(self, keyframe: int) -> FloatArray:
+        """Return T_world_keyframe (4, 4)."""
+        return np.array(self._T[self._row(keyframe)])
+
+    @property
+    def poses(self) -> dict[int, FloatArray]:
+        """All T_world_keyframe (4, 4) by keyframe id."""
+        return dict(zip(self._ids, self._T.copy(), strict=True))
+
+    def stacked(self) -> tuple[NDArray[np.intp], FloatArray]:
+        """Return all ids (N,), in order, and T_world_keyframe (N, 4, 4)."""
+        return np.array(self._ids, dtype=np.intp), self._T.copy()
+
+    @property
+    def components(self) -> int:
+        """How many sub-maps there are that no link joins."""
+        return len(self._connections.roots)
+
+    def component_of(self, keyframe: int) -> int:
+        """Return the id of the oldest keyframe of the sub-map that a keyframe belongs to."""
+        self._row(keyframe)
+        return self._connections.component_of(keyframe)
+
+    @property
+    def world(self) -> int:
+        """The oldest keyframe of the sub-map whose frame is the world's.
+
+        It is the oldest sub-map with at least half as many keyframes as the largest: a beginning
+        that was soon lost gives way, and the world does not change hands between equals.
+        """
+        size = {root: len(self.members_of(root)) for root in self._connections.roots}
+        enough = max(size.values()) / 2
+        return min(root for root in size if size[root] >= enough)
+
+    def members_of(self, component: int) -> list[int]:
+        """Return the keyframes of the sub-map with this oldest keyframe."""
+        return self._connections.members_of(component)
+
+    def linked_way(self, first: int, second: int, limit: float) -> float:
+        """Return the length of the shortest way along links, infinite if beyond `limit` metres."""
+        return self._connections.ways_from(first, limit, second).get(second, float("inf"))
+
+    def around(self, keyframe: int, metres: float) -> set[int]:
+        """Return the keyframes no further than so many metres along links."""
+        return set(self._connections.ways_from(keyframe, metres))
+
+    def add_keyframe(
+        self, keyframe: int, T_world_keyframe: FloatArray, starts_component: bool = False
+    ) -> None:
+        """Add a keyframe where it is believed to be.
+
+        Parameters
+        ----------
+        keyframe : int
+            Its id, larger than all before.
+        starts_component : bool
+            Whether it begins a sub-map, and is held where it is; the very first always does.
+
+        Raises
+        ------
+        SlamError
+            The keyframe is there already, or its id is not the largest.
+        """
+        if self._ids and keyframe <= self._ids[-1]:
+            what = "is in the graph already" if keyframe in self else "has too small an id"
+            raise SlamError(f"keyframe {what}", where=f"keyframe {keyframe}")
+        starts = starts_component or not self._ids
+        self._ids.append(keyframe)
+        self._T = np.concatenate([self._T, T_world_keyframe[None]])
+        self._connections.add(keyframe, is_root=starts)
+        self._touched.add(keyframe)
+        self._solver.add_pose(keyframe, T_world_keyframe)
+        if starts:
+            self._solver.add_prior(keyframe, T_world_keyframe)
+
+    def add_link(self, link: Link) -> None:
+        """Add a measurement between two keyframes; between two sub-maps it joins them.
+
+        Raises
+        ------
+        SlamError
+            One of the keyframes is not in the graph.
+        """
+        rows = [self._row(keyframe) for keyframe in (link.first, link.second)]
+        moving = self._connections.link(link.first, link.second, _length(link))
+        if moving:
+            self._move(moving, link)
+        elif link.is_loop:
+            first, second = self._T[rows][:, None]
+            far = deviations([link], first, second, self.settings)[0]
+            self._is_bent |= bool(far > self.settings.kernel_width)
+        self.links.append(link)
+        self._numbers.append(self._solver.add_link(link))
+        for keyframe in (link.first, link.second):
+            self._touched.update((keyframe, *self._connections.linked(keyframe)))
+
+    def measure_again(self, T_world: Mapping[int, FloatArray], since: int) -> None:
+        """Take the motion between keyframes from poses that were adjusted together.
+
+        Only links by features that close no loop are changed.
+
+        Parameters
+        ----------
+        T_world : mapping of int to (4, 4) float64
+            The poses.
+        since : int
+            No keyframe before it was moved.
+        """
+        for place in reversed(range(len(self.links))):
+            link = self.links[place]
+            if link.is_loop or link.by != "features":
+                continue
+            if link.second < since:
+                break
+            if link.first in T_world and link.second in T_world:
+                T = se3.inverse(T_world[link.first]) @ T_world[link.second]
+                self.links[place] = replace(link, T_first_second=T)
+                self._solver.remove(self._numbers[place])
+                self._numbers[place] = self._solver.add_link(self.links[place])
+
+    def optimise(self) -> list[Link]:
+        """Take the new keyframes and links in and update all poses.
+
+        Returns
+        -------
+        list of Link
+            Loops taken out because the others contradict them.
+
+        Raises
+        ------
+        SlamError
+            A keyframe hangs on no link, so its pose is undetermined.
+        """
+        if self._connections.loose:
+            raise SlamError(
+                "pose graph cannot be solved", where=f"keyframe {min(self._connections.loose)}",
+                expected="a link to every keyframe",
+            )  # fmt: skip
+        if not (self._is_stale or self._is_bent):
+            self._update()
+            return []
+        self._settle()
+        rejected: list[Link] = []
+        while worst := self._contradicted():
+            rejected += worst
+            self._take_out(worst)
+            self._settle()
+        self.rejected += rejected
+        return rejected
+
+    def write_g2o(self, path: Path, keyframes: Container[int] | None = None) -> None:
+        """Write poses and links, without kernels, for other tools (``VERTEX_SE3:QUAT``).
+
+        Of all keyframes, or of those given.
+        """
+        factors, values = gtsam.NonlinearFactorGraph(), gtsam.Values()
+        for key, T in zip(self._ids, self._T, strict=True):
+            if keyframes is None or key in keyframes:
+                values.insert(key, gtsam.Pose3(T))
+        for link in self.links:
+            if keyframes is None or (link.first in keyframes and link.second in keyframes):
+                factors.add(factor_of(link, self.settings, robust=False))
+        with replacing(path) as temporary:
+            gtsam.writeG2o(factors, values, str(temporary))
+
+    def _row(self, keyframe: int) -> int:
+        if keyframe not in self:
+            raise SlamError("no such keyframe in the pose graph", where=f"keyframe {keyframe}")
+        return bisect_left(self._ids, keyframe)
+
+    def _move(self, moving: list[int], link: Link) -> None:
+        """Move keyframes as a whole to where a link from elsewhere puts them."""
+        T_world_second = self[link.first] @ link.T_first_second
+        moved = T_world_second @ se3.inverse(self[link.second])
+        moved = se3.inverse(moved) if link.first in moving else moved
+        rows = [self._row(keyframe) for keyframe in moving]
+        self._T[rows] = moved @ self._T[rows]
+        self._is_stale = True
+
+    def _update(self) -> None:
+        """Take in what changes little."""
+        self._solver.update(thoroughly=False)
+        self._updates += 1
+        if self._updates % REFRESH_EVERY == 0:
+            self._T = self._solver.poses()
+        else:
+            for keyframe in self._touched:
+                self._T[self._row(keyframe)] = self._solver.pose(keyframe)
+        self._touched.clear()
+
+    def _settle(self) -> None:
+        """Take in what moves the map, with a new solver where parts move as a whole."""
+        if self._is_stale:
+            self._solver = Solver(self.settings)
+            for keyframe, T in zip(self._ids, self._T, strict=True):
+                self._solver.add_pose(keyframe, T)
+                if keyframe in self._connections.roots:
+                    self._solver.add_prior(keyframe, T)
+            self._numbers = [self._solver.add_link(link) for link in self.links]
+        self._solver.update(thoroughly=True)
+        self._T = self._solver.poses()
+        self._is_stale = self._is_bent = False
+        self._touched.clear()
+
+    def _contradicted(self) -> list[Link]:
+        """Return the loops that stay far from the optimum; only the worst, which bend others."""
+        loops = [link for link in self.links if link.is_loop]
+        if not loops:
+            return []
+        first, second = (
+            self._T[[self._row(end) for end in ends]]
+            for ends in zip(*((link.first, link.second) for link in loops), strict=True)
+        )
+        far = deviations(loops, first, second, self.settings)
+        limit = max(self.settings.reject_width, far.max() / 2)
+        return [loops[i] for i in np.flatnonzero(far > limit)]
+
+    def _take_out(self, links: list[Link]) -> None:
+        gone = {id(link) for link in links}
+        places = [i for i, link in enumerate(self.links) if id(link) in gone]
+        for i in reversed(places):
+            link = self.links.pop(i)
+            self._solver.remove(self._numbers.pop(i))
+            self._is_stale |= self._connections.unlink(link.first, link.second, _length(link))
+
+
+def _length(link: Link) -> float:
+    return float(np.linalg.norm(link.T_first_second[:3, 3]))

@@ -1,0 +1,196 @@
+"""gtsam's iSAM2 behind a small interface: poses, priors and links in, the best poses out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import gtsam
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+from scipy.spatial.transform import Rotation
+
+from roomgraph.datasets import se3
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.errors import SlamError
+
+FloatArray = NDArray[np.float64]
+
+PRIOR_SIGMA = 1e-6
+
+
+class PoseGraphSettings(Settings):
+    """How links between keyframes are weighed, and which are thrown out again."""
+
+    kernel: Literal["huber", "cauchy", "none"] = Field(
+        "huber", description="robust kernel on every link"
+    )
+    kernel_width: float = Field(3.0, gt=0, le=100, description="in standard deviations")
+    sigma_rotation_rad: float = Field(
+        0.001, gt=0, le=1, description="error of a link beyond what its matches say, radians"
+    )
+    sigma_translation_m: float = Field(
+        0.002, gt=0, le=1, description="error of a link beyond what its matches say, metres"
+    )
+    reject_width: float = Field(
+        10.0,
+        gt=0,
+        le=1000,
+        description="a loop is rejected that stays this far from the optimum, "
+        "in standard deviations",
+    )
+    iterations: int = Field(10, ge=1, le=100, description="of the solver after a loop, at most")
+    converged_m: float = Field(
+        1e-4, gt=0, le=0.1, description="iterations end when no keyframe moves further, metres"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A measured motion between two keyframes.
+
+    Attributes
+    ----------
+    first, second : int
+        Keyframe ids.
+    T_first_second : (4, 4) float64
+        Maps points of the second camera to the first.
+    information : (6, 6) float64
+        In the second's frame: rotation, then translation.
+    is_loop : bool
+        Whether it closes a loop.
+    by : str
+        What it was measured by: ``features``, ``planes``, ``surface`` or ``depth``.
+    """
+
+    first: int
+    second: int
+    T_first_second: FloatArray
+    information: FloatArray
+    is_loop: bool
+    by: Literal["features", "planes", "surface", "depth"] = "features"
+
+
+def covariance_of(link: Link, settings: PoseGraphSettings) -> FloatArray:
+    """Return a link's covariance (6, 6), floor included, in its second's frame."""
+    floor = np.repeat([settings.sigma_rotation_rad, settings.sigma_translation_m], 3)
+    covariance = np.linalg.inv(link.information + 1e-6 * np.eye(6)) + np.diag(floor**2)
+    return np.asarray((covariance + covariance.T) / 2)
+
+
+def factor_of(link: Link, settings: PoseGraphSettings, robust: bool) -> Any:
+    """Return a link as gtsam's factor."""
+    noise = gtsam.noiseModel.Gaussian.Covariance(covariance_of(link, settings))
+    if robust and settings.kernel != "none":
+        kernels = gtsam.noiseModel.mEstimator
+        kernel = {"huber": kernels.Huber, "cauchy": kernels.Cauchy}[settings.kernel]
+        noise = gtsam.noiseModel.Robust.Create(kernel.Create(settings.kernel_width), noise)
+    return gtsam.BetweenFactorPose3(
+        link.first, link.second, gtsam.Pose3(link.T_first_second), noise
+    )
+
+
+def deviations(
+    links: Sequence[Link],
+    T_world_first: FloatArray,
+    T_world_second: FloatArray,
+    settings: PoseGraphSettings,
+) -> FloatArray:
+    """Return how far poses (N, 4, 4) are from N links, in standard deviations (Mahalanobis)."""
+    measured = np.array([link.T_first_second for link in links])
+    error = se3.inverse(measured) @ se3.inverse(T_world_first) @ T_world_second
+    steps = np.concatenate(
+        [Rotation.from_matrix(error[:, :3, :3]).as_rotvec(), error[:, :3, 3]], axis=1
+    )
+    covariances = np.array([covariance_of(link, settings) for link in links])
+    weighted = np.linalg.solve(covariances, steps[:, :, None])[:, :, 0]
+    return np.asarray(np.sqrt(np.einsum("nd,nd->n", steps, weighted)))
+
+
+class Solver:
+    """Keeps the poses that fit all factors best, incrementally (iSAM2; Kaess et al., 2012).
+
+    Additions and removals wait for the next `update`.
+    """
+
+    def __init__(self, settings: PoseGraphSettings) -> None:
+        self.settings = settings
+        parameters = gtsam.ISAM2Params()
+        # Robust weights are those at the linearisation: it must follow the poses closely.
+        parameters.setRelinearizeThreshold(0.01)
+        self._isam = gtsam.ISAM2(parameters)
+        self._factors = gtsam.NonlinearFactorGraph()
+        self._values = gtsam.Values()
+        self._waiting: list[int] = []
+        self._removed: list[int] = []
+        self._index: dict[int, int] = {}
+        self._count = 0
+
+    def add_pose(self, key: int, T: FloatArray) -> None:
+        """Add an unknown pose, believed to be `T` (4, 4)."""
+        self._values.insert(key, gtsam.Pose3(T))
+
+    def add_prior(self, key: int, T: FloatArray) -> int:
+        """Hold a pose at `T` (4, 4); return a number to remove that by."""
+        noise = gtsam.noiseModel.Isotropic.Sigma(6, PRIOR_SIGMA)
+        return self._add(gtsam.PriorFactorPose3(key, gtsam.Pose3(T), noise))
+
+    def add_link(self, link: Link) -> int:
+        """Add a measured motion; return a number to remove it by."""
+        return self._add(factor_of(link, self.settings, robust=True))
+
+    def remove(self, number: int) -> None:
+        """Take a factor of an earlier update out."""
+        self._removed.append(self._index.pop(number))
+
+    def update(self, thoroughly: bool) -> None:
+        """Take in what waits.
+
+        One step is enough where the new poses follow from the old; `thoroughly` iterates until
+        the poses rest.
+
+        Raises
+        ------
+        SlamError
+            A pose is undetermined.
+        """
+        try:
+            result = self._isam.update(self._factors, self._values, self._removed)
+            if thoroughly:
+                self._iterate()
+        except RuntimeError as error:
+            raise SlamError(
+                "pose graph cannot be solved", expected="a link to every keyframe",
+                got=str(error).splitlines()[0],
+            ) from error  # fmt: skip
+        self._index.update(zip(self._waiting, result.getNewFactorsIndices(), strict=True))
+        self._factors, self._values = gtsam.NonlinearFactorGraph(), gtsam.Values()
+        self._waiting, self._removed = [], []
+
+    def pose(self, key: int) -> FloatArray:
+        """Return the estimate (4, 4) of one pose."""
+        return np.asarray(self._isam.calculateEstimatePose3(key).matrix())
+
+    def poses(self) -> FloatArray:
+        """Return all estimates (N, 4, 4) in the order of their keys."""
+        rows = np.asarray(gtsam.utilities.extractPose3(self._isam.calculateEstimate()))
+        T = np.tile(np.eye(4), (len(rows), 1, 1))
+        T[:, :3, :3] = rows[:, :9].reshape(-1, 3, 3)
+        T[:, :3, 3] = rows[:, 9:]
+        return T
+
+    def _iterate(self) -> None:
+        now = self.poses()
+        for _ in range(self.settings.iterations):
+            self._isam.update(force_relinearize=True)
+            before, now = now, self.poses()
+            if np.abs(now - before).max() < self.settings.converged_m:
+                break
+
+    def _add(self, factor: Any) -> int:
+        self._factors.add(factor)
+        self._waiting.append(self._count)
+        self._count += 1
+        return self._count - 1

@@ -1,0 +1,52 @@
+"""Cameras under which the data does not contradict itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from roomgraph.datasets.camera import Camera, DepthCamera
+from roomgraph.slam.checks.finding import Remedy
+from roomgraph.slam.checks.registration import Alignment
+
+
+def registered(camera: Camera, alignment: Alignment) -> Remedy | None:
+    """Return what lays depth on colour by an alignment of their images.
+
+    As if a camera of another focal length had taken it from the same point: what that is off by
+    (a Kinect's 25 mm) is right at the distance at which most outlines lie. None where the depth's
+    camera is known already.
+    """
+    if camera.depth is not None:
+        return None
+    colour, scale = camera.intrinsics, alignment.scale
+    middle = np.array([colour.width - 1, colour.height - 1]) / 2
+    shift = np.array([alignment.dx - colour.cx, alignment.dy - colour.cy])
+    centre = middle - (middle + shift) / scale
+    own = replace(
+        colour, fx=colour.fx / scale, fy=colour.fy / scale, cx=float(centre[0]),
+        cy=float(centre[1]), distortion=(),
+    )  # fmt: skip
+    return Remedy(
+        replace(camera, depth=DepthCamera(own, np.eye(4)), origin=_mended(camera)),
+        "it is laid there; aligning depth to colour when recording would be better still",
+    )
+
+
+def refocused(camera: Camera, fx: float, fy: float) -> Remedy:
+    """Return what gives a camera other focal lengths; depth stays on the pixels where it lies."""
+    colour, depth = camera.intrinsics, camera.depth
+    if depth is not None and np.array_equal(depth.T_colour_depth, np.eye(4)):
+        own = depth.intrinsics
+        own = replace(own, fx=own.fx * fx / colour.fx, fy=own.fy * fy / colour.fy)
+        depth = replace(depth, intrinsics=own)
+    other = replace(
+        camera, intrinsics=replace(colour, fx=fx, fy=fy), depth=depth, origin=_mended(camera)
+    )
+    return Remedy(other, f"fx {fx:.0f}, fy {fy:.0f} are taken; calibrate the camera to be sure")
+
+
+def _mended(camera: Camera) -> str:
+    suffix = ", mended by the data"
+    return camera.origin.removesuffix(suffix) + suffix

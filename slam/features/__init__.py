@@ -1,0 +1,1 @@
+"""Local features of a frame, and how they are matched."""

@@ -1,0 +1,78 @@
+"""Views with little texture lean on the surfaces of their keyframe as well."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from roomgraph.datasets import se3
+from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.frontend.estimate import Estimate
+from roomgraph.slam.geometry.depth_alignment import STEP_BOUND, Surface, align_surface, surface_of
+from roomgraph.slam.geometry.noise import SensorNoise
+
+FloatArray = NDArray[np.float64]
+
+
+class LeaningSettings(Settings):
+    """When a pose by features is improved on depth."""
+
+    enabled: bool = Field(True, description="improve poses from little texture on the surfaces")
+    inliers: int = Field(100, ge=0, description="poses on at least so many features stand alone")
+    columns: int = Field(80, ge=8, le=2000, description="columns of the depth that take part")
+    max_surface_m: float = Field(
+        0.05, gt=0, le=1, description="surface points further apart are not paired"
+    )
+    iterations: int = Field(4, ge=1, le=100, description="at most")
+
+
+class SurfaceLeaning:
+    """Aligns a view's depth with that of the keyframe that it is measured against.
+
+    A few dozen features, all of them on a poster or along an edge, hold a pose badly; the walls
+    and the floor around hold what they leave open. What depth asks for must lie within what the
+    features allow: else these are believed.
+    """
+
+    def __init__(self, settings: LeaningSettings, noise: SensorNoise) -> None:
+        self.settings, self.noise = settings, noise
+        self._keyframe: int | None = None
+        self._frame: Frame | None = None
+        self._surface: Surface | None = None
+
+    def rest_on(self, keyframe: int, frame: Frame) -> None:
+        """Take a new keyframe's depth as what later views are aligned with."""
+        self._keyframe, self._frame, self._surface = keyframe, frame, None
+
+    def lean(self, frame: Frame, estimate: Estimate) -> Estimate:
+        """Return an estimate improved on the surfaces, or as it was."""
+        s = self.settings
+        if not s.enabled or estimate.inliers >= s.inliers or estimate.reference != self._keyframe:
+            return estimate
+        if self._surface is None:
+            assert self._frame is not None
+            self._surface = self._thinned(self._frame)
+        cloud = self._thinned(frame).cloud
+        T = estimate.T_camera_reference
+        # From the camera's frame to the keyframe's, which surfaces are aligned in.
+        A = se3.adjoint(T)
+        known = A.T @ estimate.information @ A
+        T_reference_camera, found = align_surface(
+            cloud, self._surface, se3.inverse(T), known, self.noise, s.max_surface_m, s.iterations
+        )
+        leant = se3.inverse(T_reference_camera)
+        step = se3.logarithm(leant @ se3.inverse(T))
+        if not found.any() or step @ estimate.information @ step >= STEP_BOUND:
+            return estimate
+        back = se3.adjoint(T_reference_camera)
+        return replace(
+            estimate, T_camera_reference=leant,
+            information=np.asarray(estimate.information + back.T @ found @ back),
+        )  # fmt: skip
+
+    def _thinned(self, frame: Frame) -> Surface:
+        return surface_of(frame, max(1, frame.depth.shape[1] // self.settings.columns))

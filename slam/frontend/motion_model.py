@@ -1,0 +1,126 @@
+"""Where the camera should be next, and how much that is worth."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from roomgraph.datasets import se3
+from roomgraph.datasets.settings import Settings
+
+FloatArray = NDArray[np.float64]
+
+# 95 % of a chi-square with six degrees of freedom.
+CHI2_95 = 12.59
+# Steps in time that are alike: stamps jitter.
+ALIKE = 0.1
+
+
+class PredictionSettings(Settings):
+    """How steadily a camera in a hand, or on a robot, moves."""
+
+    enabled: bool = Field(True, description="let the motion so far hold what a view leaves open")
+    acceleration_m_s2: float = Field(
+        5.0, gt=0, le=1000, description="usual acceleration of the camera"
+    )
+    acceleration_rad_s2: float = Field(
+        30.0, gt=0, le=10000, description="usual angular acceleration of the camera"
+    )
+    memory: float = Field(
+        0.9, ge=0, lt=1, description="weight of the errors so far when a new one comes in"
+    )
+    caution: float = Field(
+        3.0, ge=1, le=100, description="predictions are taken to err so many times as they did"
+    )
+    longest: float = Field(
+        5.0, ge=1, le=100, description="motion is carried on over at most so many of its own steps"
+    )
+
+
+class MotionModel:
+    """Constant velocity, weighed by how well it has held so far.
+
+    What a view shows decides where it was taken; only directions that it leaves open (a few
+    features in a corner, a bare wall) are held by the prediction. Its covariance is that of a
+    random acceleration, or of its own errors if these are larger (adaptive, after Mehra, 1970):
+    of frames far apart next to nothing is predicted.
+    """
+
+    def __init__(self, settings: PredictionSettings) -> None:
+        self.settings = settings
+        self._T_now_last: FloatArray = np.eye(4)
+        self._step_s = 0.0
+        self._squares: FloatArray | None = None
+
+    def moved(self, T_now_last: FloatArray, seconds: float) -> None:
+        """Take in the latest step (4, 4) and how long it took.
+
+        It feeds the next one: left alone, rounding errors would double with each frame.
+        """
+        self._T_now_last, self._step_s = se3.orthonormal(T_now_last), seconds
+
+    def stand_still(self) -> None:
+        """Predict no motion: what it was is not known any more."""
+        self._T_now_last, self._step_s = np.eye(4), 0.0
+
+    def step(self, seconds: float) -> FloatArray:
+        """Return T_next_now (4, 4) after so many seconds, if the camera goes on as it did."""
+        times = self._times(seconds)
+        if abs(times - 1.0) < ALIKE:
+            return self._T_now_last
+        rotation = cv2.Rodrigues(self._T_now_last[:3, :3])[0][:, 0]
+        return se3.exponential(times * np.r_[rotation, self._T_now_last[:3, 3]])
+
+    def hold(
+        self, T: FloatArray, information: FloatArray, T_predicted: FloatArray, seconds: float
+    ) -> FloatArray:
+        """Return a measured pose with what it leaves open taken from the prediction.
+
+        The product of two Gaussians, the prediction weighed down by Cauchy's kernel where it
+        contradicts the measurement.
+
+        Parameters
+        ----------
+        T, T_predicted : (4, 4) float64
+            Of the camera, in front of the same reference.
+        information : (6, 6) float64
+            Of the measurement, in the camera's frame.
+        seconds : float
+            From the last frame to this one.
+        """
+        off = se3.logarithm(T_predicted @ se3.inverse(T))
+        known, self._squares = self._squares, self._learnt(off, information)
+        if known is None or not self.settings.enabled:
+            return T
+        prior = np.diag(1.0 / self._variances(known, seconds))
+        both = information + prior
+        # Mahalanobis, from the information of either: (P^-1 + H^-1)^-1 = P (P + H)^-1 H.
+        error = float(off @ prior @ np.linalg.solve(both, information @ off))
+        prior = prior / (1.0 + error / CHI2_95)
+        pull: FloatArray = np.asarray(np.linalg.solve(information + prior, prior @ off))
+        return se3.exponential(pull) @ T
+
+    def _times(self, seconds: float) -> float:
+        """Return how many of the last steps a time is; one if the stamps say nothing."""
+        if self._step_s <= 0 or seconds <= 0:
+            return 1.0
+        return min(seconds / self._step_s, self.settings.longest)
+
+    def _variances(self, known: FloatArray, seconds: float) -> FloatArray:
+        s = self.settings
+        usual = np.array([s.acceleration_rad_s2, s.acceleration_m_s2]) * seconds**2
+        return np.asarray(np.repeat(usual**2 + s.caution**2 * known, 3))
+
+    def _learnt(self, off: FloatArray, information: FloatArray) -> FloatArray:
+        """Return the mean square errors (2,) of predictions, rotation and way, per axis.
+
+        An error that the measurement itself may have caused is no error of the prediction.
+        """
+        own = np.diag(np.linalg.inv(information + 1e-6 * np.eye(6)))
+        square: FloatArray = np.maximum(off**2 - own, 0.0).reshape(2, 3).mean(axis=1)
+        if self._squares is None:
+            return square
+        memory = self.settings.memory
+        return np.asarray(memory * self._squares + (1 - memory) * square)

@@ -1,0 +1,1 @@
+"""Motions, planes and surfaces: estimated, aligned and compared."""

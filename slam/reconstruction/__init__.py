@@ -1,0 +1,1 @@
+"""The map: points, meshes, free space and the floor."""

@@ -1,0 +1,1 @@
+"""Keyframes found again: by words, from memory and from disk."""

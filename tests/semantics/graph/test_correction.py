@@ -1,0 +1,114 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from roomgraph.semantics.errors import SemanticsError
+from roomgraph.semantics.graph.correction import correct, learn_more
+from roomgraph.semantics.graph.evidence import Evidence
+from roomgraph.semantics.graph.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
+from roomgraph.semantics.labels import LabelSpace
+from roomgraph.semantics.recognition.model import Lessons
+from roomgraph.semantics.recognition.model_files import load_model, save_model
+from tests.semantics.helpers import descriptors_of, features, frame_label, tiny_model
+
+LABELS = LabelSpace.of(["corridor", "kitchen", "office"])
+
+
+def graph_of(places, scores):
+    nodes = tuple(
+        GraphNode(
+            i, 10 * i, i / 3, np.array([float(i), 0, 0]), place.rstrip("0123456789"),
+            LABELS.id_of(place.rstrip("0123456789")), place, score, np.empty(0),
+        )
+        for i, (place, score) in enumerate(zip(places, scores, strict=True))
+    )  # fmt: skip
+    edges = tuple(GraphEdge(i, i + 1, 1.0, EdgeKind.PATH) for i in range(len(nodes) - 1))
+    return SemanticGraph(LABELS, nodes, edges)
+
+
+def test_a_place_gets_a_new_name_and_unsure_neighbours_follow():
+    graph = graph_of(
+        ["corridor1", "corridor1", "office1", "office1", "kitchen1", "corridor1", "corridor1"],
+        [0.95, 0.95, 0.9, 0.9, 0.3, 0.95, 0.95],
+    )
+    found = correct(graph, "office1", "library", change_m=4.0)
+    assert found.place == "library1"
+    assert found.told == (2, 3)
+    assert found.inferred == (4,)
+    assert [n.place for n in found.graph.nodes] == [
+        "corridor1", "corridor1", "library1", "library1", "library1", "corridor1", "corridor1",
+    ]  # fmt: skip
+    assert found.graph.labels.names == (*LABELS.names, "library")
+    assert found.graph.labels.colours[:4] == LABELS.colours
+    assert found.graph.nodes[2].label_id == 4
+    assert graph.nodes[2].place == "office1"
+
+
+def test_sure_neighbours_stay_and_numbers_are_free():
+    graph = graph_of(["office1", *["corridor1"] * 3, "kitchen1", "kitchen1"], [0.9] * 6)
+    found = correct(graph, "kitchen1", "office", change_m=4.0)
+    assert found.place == "office2"
+    assert found.inferred == ()
+    places = [n.place for n in found.graph.nodes]
+    assert places == ["office1", *["corridor1"] * 3, "office2", "office2"]
+
+
+@pytest.mark.parametrize(("place", "label"), [("attic1", "office"), ("office1", "unknown")])
+def test_wrong_names_are_told(place, label):
+    with pytest.raises(SemanticsError):
+        correct(graph_of(["office1"], [0.9]), place, label, change_m=4.0)
+
+
+def with_lessons():
+    model = tiny_model()
+    vectors, labels = [], []
+    for k, name in enumerate(("corridor", "kitchen", "office")):
+        for n in range(12, 32):
+            vectors.append(model.vector(features(descriptors_of(k, n))))
+            labels.append(name)
+    groups = np.array([str(i) for i in range(60)])
+    lessons = Lessons(np.array(vectors, dtype=np.float16), np.array(labels), groups)
+    return replace(model, lessons=lessons)
+
+
+def test_the_model_takes_in_a_new_class_and_keeps_the_old(tmp_path):
+    model = with_lessons()
+    # The fourth word alone: nothing that the model was shown.
+    new = [model.vector(features(descriptors_of(3, n))) for n in range(12, 32)]
+    learned = learn_more(model, new, "attic", "visit")
+    assert learned.labels.names == ("unknown", "corridor", "kitchen", "office", "attic")
+    assert learned.predict(features(descriptors_of(3, 40))).label == "attic"
+    for k, name in enumerate(("corridor", "kitchen", "office")):
+        assert learned.predict(features(descriptors_of(k, 40))).label == name
+    np.testing.assert_allclose(learned.transitions.sum(axis=1), 1)
+    save_model(tmp_path / "m", learned)
+    again = load_model(tmp_path / "m")
+    assert again.predict(features(descriptors_of(3, 40))).label == "attic"
+    np.testing.assert_array_equal(again.lessons.vectors, learned.lessons.vectors)
+    more = learn_more(again, new, "attic", "another visit")
+    assert more.labels == learned.labels
+
+
+def test_without_lessons_or_images_nothing_is_learned():
+    with pytest.raises(SemanticsError, match="lessons"):
+        learn_more(tiny_model(), [np.ones(4)], "attic", "visit")
+    with pytest.raises(SemanticsError, match="nothing to learn"):
+        learn_more(with_lessons(), [], "attic", "visit")
+
+
+def test_evidence_names_the_word_that_spoke_and_comes_back():
+    model = tiny_model()
+    prediction = model.predict(features(descriptors_of(1)))
+    assert prediction.words[0][0] == 1
+    assert prediction.words[0][1] > 0
+    label = frame_label(3, 0.0)
+    object.__setattr__(label, "probabilities", np.array([0, 0.2, 0.1, 0.7]))
+    object.__setattr__(label, "voters", (1, 2, 3))
+    object.__setattr__(label, "words", prediction.words)
+    evidence = Evidence.of(label, LABELS)
+    assert evidence.labels == (("office", 0.7), ("corridor", 0.2), ("kitchen", 0.1))
+    again = Evidence.from_content(evidence.content())
+    assert (again.labels, again.voters) == (evidence.labels, evidence.voters)
+    assert again.voted == "office"
+    assert Evidence.of(frame_label(3, 0.0), LABELS) == Evidence()
