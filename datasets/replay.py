@@ -17,7 +17,7 @@ from roomgraph.datasets.trajectory import Trajectory
 MAX_DIFFERENCE_S = 0.01
 
 
-class Laps:
+class PingPongReplay:
     """A sequence followed by itself reversed, `laps` times: a long run that sees nothing new.
 
     Time goes on: the way back takes as long as the way there. True poses are repeated likewise;
@@ -57,9 +57,9 @@ class Laps:
     def __getitem__(self, index: int) -> Frame:
         return replace(self._frames[index], stamp_s=float(self._stamps_s[index]))
 
-    def with_camera(self, camera: Camera) -> Laps:
+    def with_camera(self, camera: Camera) -> PingPongReplay:
         """Return the same laps, taken by another camera."""
-        return Laps(self._source.with_camera(camera), self._laps)
+        return PingPongReplay(self._source.with_camera(camera), self._laps)
 
 
 def _running(stamps_s: NDArray[np.float64]) -> NDArray[np.float64]:

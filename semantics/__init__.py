@@ -1,1 +1,1 @@
-"""The high layer: visual words, place labels and the semantic topological graph."""
+"""The semantic layer: visual words, place labels and the semantic topological graph."""

@@ -1,4 +1,4 @@
-"""Errors of the high layer."""
+"""Errors of the semantic layer."""
 
 from __future__ import annotations
 

@@ -1,18 +1,18 @@
-"""The high layer's settings, one part a module."""
+"""The semantic layer's settings, one part a module."""
 
 from __future__ import annotations
 
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.graph.topology import TopologySettings
 from roomgraph.semantics.recognition.presets import TrainingSettings
-from roomgraph.semantics.rooms.labelling import ExtentSettings
+from roomgraph.semantics.rooms.labelling import RoomSettings
 from roomgraph.semantics.temporal.labeller import LabellerSettings
 
 
 class SemanticsSettings(Settings):
-    """All settings of the high layer."""
+    """All settings of the semantic layer."""
 
     training: TrainingSettings = TrainingSettings()
     labeller: LabellerSettings = LabellerSettings()
     topology: TopologySettings = TopologySettings()
-    extents: ExtentSettings = ExtentSettings()
+    rooms: RoomSettings = RoomSettings()

@@ -1,1 +1,1 @@
-"""The low layer: camera motion, planes, loops, pose graph and map."""
+"""SLAM: camera motion, planes, loops, pose graph and map."""

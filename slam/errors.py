@@ -1,4 +1,4 @@
-"""Errors of the low layer."""
+"""Errors of SLAM."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from roomgraph.datasets.errors import RoomgraphError
 
 
 class SlamError(RoomgraphError):
-    """A setting or a build that the low layer cannot work with."""
+    """A setting or a build that SLAM cannot work with."""

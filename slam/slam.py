@@ -13,16 +13,19 @@ from pydantic import Field
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.settings import Settings
-from roomgraph.slam.backend.alignment import Linker
+from roomgraph.slam.backend.alignment import KeyframeAligner
 from roomgraph.slam.backend.backend import Backend
-from roomgraph.slam.backend.local_bundle_adjustment import Window, WindowSettings
+from roomgraph.slam.backend.local_bundle_adjustment import (
+    LocalBundleAdjustment,
+    LocalBundleAdjustmentSettings,
+)
 from roomgraph.slam.backend.loop_closing import LoopCloser, LoopSettings
 from roomgraph.slam.backend.mapper import Mapper
-from roomgraph.slam.backend.pose_graph import Link, PoseGraph, PoseGraphSettings
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph, PoseGraphSettings
 from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
 from roomgraph.slam.features.view import View
-from roomgraph.slam.frontend.depth_odometry import DepthOdometry, TexturelessSettings
-from roomgraph.slam.frontend.depth_refinement import LeaningSettings, SurfaceLeaning
+from roomgraph.slam.frontend.depth_odometry import DepthOdometry, DepthOdometrySettings
+from roomgraph.slam.frontend.depth_refinement import DepthRefinementSettings, DepthRefiner
 from roomgraph.slam.frontend.estimate import Estimate
 from roomgraph.slam.frontend.keyframe_selection import KeyframeSelector, KeyframeSettings
 from roomgraph.slam.frontend.localiser import Localiser, estimate_of
@@ -34,10 +37,10 @@ from roomgraph.slam.geometry.motion import MotionSettings
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.planes import PlaneSettings
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.floor_plane import GroundSettings
-from roomgraph.slam.reconstruction.occupancy_volume import SpaceSettings
+from roomgraph.slam.reconstruction.floor_plane import FloorPlaneSettings
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings
 from roomgraph.slam.reconstruction.point_map import LiveMap, MapSettings, PointMap, build_map
-from roomgraph.slam.relocalisation.word_index import AppearanceSettings
+from roomgraph.slam.relocalisation.word_index import WordIndexSettings
 from roomgraph.slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 
 logger = logging.getLogger(__name__)
@@ -69,7 +72,7 @@ class LossSettings(Settings):
 
 
 class SlamSettings(Settings):
-    """All of the low layer's settings."""
+    """All of SLAM's settings."""
 
     max_depth_m: float = Field(8.0, gt=0, le=200, description="readings beyond are ignored")
     features: FeatureSettings = FeatureSettings()
@@ -79,24 +82,24 @@ class SlamSettings(Settings):
     flow: FlowSettings = FlowSettings()
     tracker: TrackerSettings = TrackerSettings()
     keyframes: KeyframeSettings = KeyframeSettings()
-    window: WindowSettings = WindowSettings()
+    local_bundle_adjustment: LocalBundleAdjustmentSettings = LocalBundleAdjustmentSettings()
     planes: PlaneSettings = PlaneSettings()
     icp: IcpSettings = IcpSettings()
     loops: LoopSettings = LoopSettings()
-    appearance: AppearanceSettings = AppearanceSettings()
+    word_index: WordIndexSettings = WordIndexSettings()
     pose_graph: PoseGraphSettings = PoseGraphSettings()
-    leaning: LeaningSettings = LeaningSettings()
-    textureless: TexturelessSettings = TexturelessSettings()
+    depth_refinement: DepthRefinementSettings = DepthRefinementSettings()
+    depth_odometry: DepthOdometrySettings = DepthOdometrySettings()
     loss: LossSettings = LossSettings()
     map: MapSettings = MapSettings()
-    ground: GroundSettings = GroundSettings()
-    space: SpaceSettings = SpaceSettings()
+    floor_plane: FloorPlaneSettings = FloorPlaneSettings()
+    occupancy_volume: OccupancyVolumeSettings = OccupancyVolumeSettings()
 
 
 class Slam:
     """Tracks a camera against local keyframes and keeps these consistent.
 
-    The low layer of Kostavelis & Gasteratos (2013, section 3.1): matched features give a coarse
+    SLAM of Kostavelis & Gasteratos (2013, section 3.1): matched features give a coarse
     motion, points of common planes refine it by ICP; here between keyframes, joined in a pose
     graph with loop closures. Between keyframes corners are followed by optical flow; keyframes are
     linked, adjusted in bundles and searched for loops in a thread. A lost camera begins a sub-map,
@@ -114,24 +117,25 @@ class Slam:
         self.settings = settings
         self._extractor = FeatureExtractor(settings.features)
         self._tracker = Tracker(settings.tracker, settings.motion, settings.noise, seed)
-        linker = Linker(self._tracker, settings.icp, settings.noise)
+        aligner = KeyframeAligner(self._tracker, settings.icp, settings.noise)
         self.mapper = Mapper(
-            settings.keyframes, settings.planes, settings.map, settings.noise, linker,
-            LoopCloser(settings.loops, settings.appearance, linker),
-            Window(settings.window, settings.noise),
+            settings.keyframes, settings.planes, settings.map, settings.noise, aligner,
+            LoopCloser(settings.loops, settings.word_index, aligner),
+            LocalBundleAdjustment(settings.local_bundle_adjustment, settings.noise),
             PoseGraph(settings.pose_graph), seed,
         )  # fmt: skip
         self._backend = Backend(self.mapper)
         depth = DepthOdometry(
-            settings.textureless, settings.planes, settings.icp, settings.noise, seed
+            settings.depth_odometry, settings.planes, settings.icp, settings.noise, seed
         )
         self._localiser = Localiser(
             FlowTracker(settings.flow, settings.noise), self._tracker, depth,
-            MotionModel(settings.prediction), SurfaceLeaning(settings.leaning, settings.noise),
+            MotionModel(settings.prediction),
+            DepthRefiner(settings.depth_refinement, settings.noise),
             self._backend, settings.loss.min_correlation,
         )  # fmt: skip
         self._live_map = LiveMap(settings.map, settings.noise)
-        self._selector = KeyframeSelector(settings.keyframes, settings.textureless.keyframe_m)
+        self._selector = KeyframeSelector(settings.keyframes, settings.depth_odometry.keyframe_m)
         self._has_begun = self._is_lost = self._needs_features = False
         self._last_seen_s, self._lost_in_a_row = 0.0, 0
 
@@ -178,9 +182,9 @@ class Slam:
         return np.asarray(self._backend.poses[anchor.keyframe] @ anchor.T_keyframe_camera)
 
     @property
-    def links(self) -> tuple[Link, ...]:
-        """The links between keyframes that are not in the making."""
-        return self._backend.links
+    def constraints(self) -> tuple[Constraint, ...]:
+        """The constraints between keyframes that are not in the making."""
+        return self._backend.constraints
 
     def is_placed(self, anchor: Anchor) -> bool:
         """Whether it is known where in the world a pose is: not so in a sub-map of its own."""

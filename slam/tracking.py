@@ -1,4 +1,4 @@
-"""What the low layer says of each frame."""
+"""What SLAM says of each frame."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class LoopClosure:
 
 @dataclass(frozen=True, slots=True)
 class Tracking:
-    """The low layer's account of one frame.
+    """SLAM's account of one frame.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Tracking:
 
     @property
     def features(self) -> Features:
-        """The features, shared with the high layer; none of frames tracked without.
+        """The features, shared with the semantic layer; none of frames tracked without.
 
         Waits for those of a keyframe in the making.
         """

@@ -20,7 +20,7 @@ from roomgraph.semantics.labels import UNKNOWN
 from roomgraph.slam.features.extraction import FeatureExtractor
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.tracker import Tracker
-from roomgraph.slam.relocalisation.keyframe_database import read_memory
+from roomgraph.slam.relocalisation.keyframe_database import read_keyframe_database
 from roomgraph.slam.relocalisation.relocaliser import (
     Relocaliser,
     RelocaliserSettings,
@@ -33,7 +33,7 @@ _MAJORITY = 0.5
 # Of a run's settings: those that its keyframes were made with, and images are compared with.
 _NEEDED = (
     "seed", "slam.max_depth_m", "slam.features", "slam.noise", "slam.motion", "slam.tracker",
-    "slam.appearance",
+    "slam.word_index",
 )  # fmt: skip
 # Poses this near to each other are one answer.
 _SAME_POSE_M = 0.5
@@ -68,7 +68,7 @@ class Whereabouts:
 
 
 class Locator:
-    """Answers for one run, its memory loaded once.
+    """Answers for one run, its database loaded once.
 
     Raises
     ------
@@ -80,17 +80,17 @@ class Locator:
         settings = load_settings(folder.existing(folder.config), only=_NEEDED)
         slam = settings.slam
         self.graph = read_graph_json(folder.existing(folder.graph_json))
-        self._memory = read_memory(folder.existing(folder.memory))
+        self._database = read_keyframe_database(folder.existing(folder.keyframe_database))
         self._extractor = FeatureExtractor(slam.features)
         self._max_depth_m = slam.max_depth_m
         self._relocation = RelocaliserSettings()
         tracker = Tracker(slam.tracker, slam.motion, slam.noise, settings.seed)
-        self._relocaliser = Relocaliser(self._memory, tracker, self._relocation, slam.appearance)
+        self._relocaliser = Relocaliser(self._database, tracker, self._relocation, slam.word_index)
 
     @property
     def camera(self) -> Camera:
         """The camera of the run, depth in millimetres."""
-        return Camera(self._memory.intrinsics, 1000.0, "the run")
+        return Camera(self._database.intrinsics, 1000.0, "the run")
 
     def locate(self, frame: Frame) -> Whereabouts:
         """Say where a frame was taken; one without readings is located by its colours alone."""
@@ -128,10 +128,10 @@ class Locator:
         if self.graph.T_map_world is None:
             return None
         x, y, _ = se3.transform(self.graph.T_map_world, position_world[None])[0]
-        for extent in self.graph.extents:
-            outline = extent.polygon_map.astype(np.float32)
+        for room in self.graph.rooms:
+            outline = room.polygon_map.astype(np.float32)
             if cv2.pointPolygonTest(outline, (float(x), float(y)), False) >= 0:
-                return extent.name, extent.label
+                return room.name, room.label
         return None
 
 

@@ -90,13 +90,13 @@ def bench_once(job: BenchJob) -> BenchRun:
     from roomgraph.app.storage.recorder import Recorder
     from roomgraph.app.storage.run_folder import RunFolder
     from roomgraph.app.viewer.viewer import NoViewer
-    from roomgraph.datasets.replay import Laps
+    from roomgraph.datasets.replay import PingPongReplay
     from roomgraph.datasets.sequence import Sequence
     from roomgraph.semantics.recognition.model_files import load_model
 
     sequence: Sequence = job.input.open()
     if job.laps:
-        sequence = Laps(sequence, job.laps)
+        sequence = PingPongReplay(sequence, job.laps)
     model = load_model(job.model) if job.model is not None else None
     settings = with_features_of(model, job.settings)
     sequence = examined(sequence, settings).sequence

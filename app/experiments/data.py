@@ -10,10 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.app.console import Terminal
-from roomgraph.app.experiments.visible_rooms import doorway_distances, sights, stretches_along
+from roomgraph.app.experiments.visible_rooms import (
+    doorway_distances,
+    stretches_along,
+    visible_rooms,
+)
 from roomgraph.app.experiments.walks import Walk
 from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
-from roomgraph.semantics.evaluation.trials import Bench
+from roomgraph.semantics.evaluation.splits import EvaluationSet
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.recognition.description import Described, describe_images
 from roomgraph.semantics.recognition.encoding import vectors_of
@@ -78,7 +82,7 @@ class Describer:
         )
         labels = LabelSpace.of(image.example.label for image in images)
         return replace(
-            self.model, labels=labels, classifier=classifier, lessons=None,
+            self.model, labels=labels, classifier=classifier, exemplars=None,
             reject_below=threshold(classifier, self.settings.reject),
             transitions=count_transitions(walks_of(images), labels.names[1:]),
         )  # fmt: skip
@@ -106,7 +110,7 @@ class Collection:
     vectors: NDArray[Any]
     C: float
 
-    def bench(self) -> Bench:
+    def evaluation_set(self) -> EvaluationSet:
         """Return the images as the experiments take them.
 
         The vectors of few images are turned onto the axes that they span, which changes no product
@@ -118,8 +122,8 @@ class Collection:
         rooms = [f"{b}/{e.place or e.group}" for b, e in zip(buildings, examples, strict=True)]
         visits = np.array([example.group for example in examples])
         walks = list({id(walk): walk for walk in self.walks}.values())
-        seen = sights(walks, examples)
-        return Bench(
+        seen = visible_rooms(walks, examples)
+        return EvaluationSet(
             turned(vectors.astype(np.float64)) if len(vectors) <= TURNED else vectors,
             np.array([example.label for example in examples]),
             visits,
@@ -129,9 +133,14 @@ class Collection:
             self.C,
             *self._along(visits),
             doorway_distances(walks, examples),
-            np.array([sight.label for sight in seen]),
-            np.array([f"{b}/{sight.room}" for b, sight in zip(buildings, seen, strict=False)]),
-            np.array([sight.own_share for sight in seen]),
+            np.array([visible_room.label for visible_room in seen]),
+            np.array(
+                [
+                    f"{b}/{visible_room.room}"
+                    for b, visible_room in zip(buildings, seen, strict=False)
+                ]
+            ),
+            np.array([visible_room.own_share for visible_room in seen]),
         )
 
     def _along(self, visits: NDArray[np.str_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

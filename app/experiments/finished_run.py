@@ -10,12 +10,12 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from roomgraph.app.console import Terminal
-from roomgraph.app.run.session import Showing, map_sequence
+from roomgraph.app.run.session import OutputOptions, map_sequence
 from roomgraph.app.settings import AppSettings
 from roomgraph.app.storage.run_folder import make_run_folder
 from roomgraph.datasets.errors import RoomgraphError
 from roomgraph.datasets.readers.registry import open_sequence
-from roomgraph.semantics.evaluation.trials import Trial
+from roomgraph.semantics.evaluation.splits import SplitResult
 from roomgraph.semantics.graph.files import read_graph_json
 from roomgraph.semantics.recognition.model import PlaceModel
 
@@ -26,8 +26,8 @@ FINISHED, FINISHED_FRAMES = "nodes, finished run", "frames, finished run"
 class FinishedRun:
     """The labels of a finished run's nodes and frames, its rooms, and how many were told apart."""
 
-    nodes: Trial
-    frames: Trial
+    nodes: SplitResult
+    frames: SplitResult
     rooms: int
     told_apart: int
 
@@ -47,18 +47,20 @@ def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -
     settings = AppSettings(seed=seed)
     with TemporaryDirectory() as scratch:
         folder = make_run_folder(Path(scratch) / "run", sequence.name, overwrite=False)
-        nothing = Showing(live=False, save=False, report=False)
+        nothing = OutputOptions(live=False, save=False, report=False)
         metrics = map_sequence(sequence, settings, model, folder, nothing, terminal)
         graph, rows = read_graph_json(folder.graph_json), folder.read_frames()
     nodes = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
     frames = [(places.at(float(row["timestamp"])), row["label"]) for row in rows]
     return FinishedRun(
-        _trial(FINISHED, nodes), _trial(FINISHED_FRAMES, frames),
+        _result(FINISHED, nodes), _result(FINISHED_FRAMES, frames),
         len(metrics["rooms"]), len(metrics["rooms_recovered"]),
     )  # fmt: skip
 
 
-def _trial(row: str, pairs: Sequence[tuple[tuple[str, str] | None, str]]) -> Trial:
-    """Return a trial of what is known to lie in a room: its true label and instance, its label."""
+def _result(row: str, pairs: Sequence[tuple[tuple[str, str] | None, str]]) -> SplitResult:
+    """Return a result of what is known to lie in a room: its true label and instance, its label."""
     known = [(truth[0], label) for truth, label in pairs if truth is not None]
-    return Trial(row, np.array([truth for truth, _ in known]), np.array([x for _, x in known]))
+    return SplitResult(
+        row, np.array([truth for truth, _ in known]), np.array([x for _, x in known])
+    )

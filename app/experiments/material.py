@@ -9,7 +9,7 @@ from pathlib import Path
 from roomgraph.app.console import Terminal
 from roomgraph.app.experiments.data import Collection, Describer
 from roomgraph.app.experiments.walks import STRIDE, WORD_SEED, Walk, data_walks, rendered_walks
-from roomgraph.semantics.evaluation.trials import Bench, Trial
+from roomgraph.semantics.evaluation.splits import EvaluationSet, SplitResult
 from roomgraph.semantics.recognition.model import PlaceModel
 from roomgraph.semantics.recognition.presets import Preset
 
@@ -23,23 +23,25 @@ class Material:
     describer: Describer
     walks: list[Walk]
     collection: Collection
-    bench: Bench
+    evaluation_set: EvaluationSet
     data: tuple[str, ...]
     notes: tuple[str, ...]
     seed: int
     terminal: Terminal
 
-    def watched(self, title: str, found: Iterator[Trial], total: int) -> tuple[Trial, ...]:
-        """Return all trials, with a progress bar."""
+    def watched(
+        self, title: str, found: Iterator[SplitResult], total: int
+    ) -> tuple[SplitResult, ...]:
+        """Return all results, with a progress bar."""
         done = []
         with self.terminal.progress(title) as advance:
-            for trial in found:
-                done.append(trial)
-                advance(len(done), total, trial.row)
+            for result in found:
+                done.append(result)
+                advance(len(done), total, result.row)
         return tuple(done)
 
     def model_without(self, building: str) -> PlaceModel:
-        """Return a model of all buildings but one; the words are those of the bench."""
+        """Return a model of all buildings but one; the words are those of the evaluation_set."""
         kept = [i for i, walk in enumerate(self.collection.walks) if walk.building != building]
         return self.describer.relearned(
             [self.collection.images[i] for i in kept], self.collection.vectors[kept],
@@ -86,5 +88,5 @@ def gather(
         f"rendered {name}" for name in dict.fromkeys(walk.building for walk in walks)
     )
     return Material(
-        describer, walks, collection, collection.bench(), names, (note,), seed, terminal
+        describer, walks, collection, collection.evaluation_set(), names, (note,), seed, terminal
     )

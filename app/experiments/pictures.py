@@ -11,7 +11,7 @@ import numpy as np
 from roomgraph.datasets.files import replacing
 from roomgraph.semantics.evaluation.accuracy import LabelAccuracy
 from roomgraph.semantics.evaluation.calibration import rejection_curve, reliability
-from roomgraph.semantics.evaluation.open_set import Judgement
+from roomgraph.semantics.evaluation.open_set import OpenSetEvaluation
 
 # Letters on a line beside a bar.
 _NAME_WIDTH = 24
@@ -22,7 +22,10 @@ _ROOM_FOR_FIGURE = 15
 
 
 def draw(
-    path: Path, content: dict[str, Any], confusion: LabelAccuracy, judgement: Judgement | None
+    path: Path,
+    content: dict[str, Any],
+    confusion: LabelAccuracy,
+    open_set: OpenSetEvaluation | None,
 ) -> None:
     """Draw the rows of an experiment, its confusion, and what its probabilities are worth.
 
@@ -34,19 +37,19 @@ def draw(
         What the report's JSON holds.
     confusion : LabelAccuracy
         True against found labels.
-    judgement : Judgement or None
+    open_set : OpenSetEvaluation or None
         Probabilities for buildings never seen.
     """
     from matplotlib.figure import Figure
 
-    count = 2 if judgement is None else 4
+    count = 2 if open_set is None else 4
     figure = Figure(figsize=(5.2 * min(count, 2), 4.6 * (count // 2)), layout="constrained")
     axes = np.ravel(figure.subplots(count // 2, 2))
     _draw_rows(axes[0], content)
     _draw_confusion(axes[1], confusion)
-    if judgement is not None:
-        _draw_reliability(axes[2], judgement, content)
-        _draw_rejection(axes[3], judgement, content)
+    if open_set is not None:
+        _draw_reliability(axes[2], open_set, content)
+        _draw_rejection(axes[3], open_set, content)
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=110)
 
@@ -89,8 +92,8 @@ def _draw_confusion(axis: Any, accuracy: LabelAccuracy) -> None:
     axis.set_title("confusion (%)", loc="left")
 
 
-def _draw_reliability(axis: Any, judgement: Judgement, content: dict[str, Any]) -> None:
-    table = reliability(*judgement.confidence)
+def _draw_reliability(axis: Any, open_set: OpenSetEvaluation, content: dict[str, Any]) -> None:
+    table = reliability(*open_set.confidence)
     table = table[table[:, 2] > 0]
     axis.plot([0, 1], [0, 1], color="0.7", lw=1)
     axis.plot(table[:, 0], table[:, 1], "o-", color="#e15759")
@@ -101,14 +104,14 @@ def _draw_reliability(axis: Any, judgement: Judgement, content: dict[str, Any]) 
     axis.spines[["top", "right"]].set_visible(False)
 
 
-def _draw_rejection(axis: Any, judgement: Judgement, content: dict[str, Any]) -> None:
-    for name, strange in judgement.strange.items():
-        limits = np.quantile(judgement.usual[name], np.linspace(0, 1, 101))
-        kept = [(judgement.usual[name] >= limit).mean() for limit in limits]
-        refused = [(strange < limit).mean() for limit in limits]
+def _draw_rejection(axis: Any, open_set: OpenSetEvaluation, content: dict[str, Any]) -> None:
+    for name, novel in open_set.novel.items():
+        limits = np.quantile(open_set.known[name], np.linspace(0, 1, 101))
+        kept = [(open_set.known[name] >= limit).mean() for limit in limits]
+        refused = [(novel < limit).mean() for limit in limits]
         label = f"{name.replace('_', ' ')} {content['unknown_auroc'].get(name, float('nan')):.2f}"
         axis.plot(kept, refused, label=label)
-    curve = rejection_curve(*judgement.confidence)
+    curve = rejection_curve(*open_set.confidence)
     axis.plot(curve[:, 0], curve[:, 1], color="black", ls="--", label="known: share right")
     axis.set(
         xlim=(0, 1), ylim=(0, 1.02), xlabel="known places kept", ylabel="places never seen refused"

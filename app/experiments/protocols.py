@@ -18,10 +18,10 @@ from roomgraph.app.experiments.report import ProtocolReport
 from roomgraph.app.experiments.visible_rooms import route_positions
 from roomgraph.app.experiments.walks import SEEDS, STRIDE, data_walks
 from roomgraph.datasets.errors import RoomgraphError
-from roomgraph.semantics.evaluation import trials
-from roomgraph.semantics.evaluation.open_set import judge
-from roomgraph.semantics.evaluation.route import route_trials
-from roomgraph.semantics.evaluation.trials import Trial
+from roomgraph.semantics.evaluation import splits
+from roomgraph.semantics.evaluation.open_set import evaluate_open_set
+from roomgraph.semantics.evaluation.route import route_results
+from roomgraph.semantics.evaluation.splits import SplitResult
 from roomgraph.semantics.recognition.presets import Preset
 
 PERMUTATIONS = 100
@@ -56,13 +56,13 @@ def run_protocol(
 
 
 def _recognition(m: Material) -> ProtocolReport:
-    lights = len(set(m.bench.lights.tolist()))
-    knows_doorways = lights > 1 and len(m.bench.doorway_m) > 0
-    knows_sights = lights > 1 and len(m.bench.shown) > 0
-    total = trials.N_FOLDS * (lights + 1 + (lights > 1) + knows_doorways + knows_sights)
-    found = m.watched("Recognition", trials.recognition(m.bench, m.seed), total)
+    lights = len(set(m.evaluation_set.lights.tolist()))
+    knows_doorways = lights > 1 and len(m.evaluation_set.doorway_m) > 0
+    knows_visible_rooms = lights > 1 and len(m.evaluation_set.visible) > 0
+    total = splits.N_FOLDS * (lights + 1 + (lights > 1) + knows_doorways + knows_visible_rooms)
+    found = m.watched("Recognition", splits.recognition(m.evaluation_set, m.seed), total)
     last = found[-1].row
-    aside = (last, trials.AWAY, trials.SHOWN)
+    aside = (last, splits.AWAY, splits.BY_VISIBLE_ROOM)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
     notes = [
         "Ten folds. In each light a visit to a room is held out whole; fused, a room is held out "
@@ -71,35 +71,38 @@ def _recognition(m: Material) -> ProtocolReport:
     ]
     if knows_doorways:
         notes.append(
-            f"The row '{trials.AWAY}' is a part of the row 'fused': an image bears the label of "
+            f"The row '{splits.AWAY}' is a part of the row 'fused': an image bears the label of "
             "where it was taken, and near a doorway it shows the next room. Not counted either."
         )
     figures = {}
-    if knows_sights:
-        hardly = float(np.mean(m.bench.own_share < trials.HARDLY))
+    if knows_visible_rooms:
+        hardly = float(np.mean(m.evaluation_set.own_share < splits.HARDLY))
         figures = {"hardly_show_their_room": round(hardly, 4)}
         notes.append(
             f"Of the images, {hardly:.1%} show nothing of the room they were taken in, as the "
             "depth and the floor plan tell: there the label cannot be seen. In the row "
-            f"'{trials.SHOWN}' an image bears the label of the room that most of it shows, and "
-            "that room is held out. Not counted either."
+            f"'{splits.BY_VISIBLE_ROOM}' an image bears the label of the room that "
+            "most of it shows, and that room is held out. Not counted either."
         )
     return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows, figures=figures)
 
 
 def _light(m: Material) -> ProtocolReport:
-    lights, buildings = set(m.bench.lights.tolist()), set(m.bench.buildings.tolist())
+    lights, buildings = (
+        set(m.evaluation_set.lights.tolist()),
+        set(m.evaluation_set.buildings.tolist()),
+    )
     if len(lights) < 2:
         raise AppError("one light only", expected="the same rooms in two lights, a folder each")
     if len(buildings) == len(lights):
         # Folders of the user: each is a light, and all show one building.
-        same = np.full(len(m.bench.labels), "data")
-        m = replace(m, bench=replace(m.bench, buildings=same))
+        same = np.full(len(m.evaluation_set.labels), "data")
+        m = replace(m, evaluation_set=replace(m.evaluation_set, buildings=same))
         buildings = {"data"}
-    split = len(m.bench.order) > 0
+    split = len(m.evaluation_set.order) > 0
     count = len(lights) * len(buildings)
     total = count * (len(lights) - 1) * 3 + count * 2 if split else count * (len(lights) - 1)
-    found = m.watched("Across light", trials.light(m.bench), total)
+    found = m.watched("Across light", splits.light(m.evaluation_set), total)
     notes = ["Trained in one light and tested in another, building by building (paper, Table 2)."]
     if split:
         notes.append(
@@ -111,22 +114,24 @@ def _light(m: Material) -> ProtocolReport:
             "of a turn are learned from and tested, so that no view recurs; in the same light as "
             "well, to tell what of the loss is the light's."
         )
-    aside = (trials.STRETCHES, trials.STRETCHES_SAME_LIGHT)
+    aside = (splits.STRETCHES, splits.STRETCHES_SAME_LIGHT)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
     return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows)
 
 
 def _building(m: Material) -> ProtocolReport:
-    buildings = set(m.bench.buildings.tolist())
+    buildings = set(m.evaluation_set.buildings.tolist())
     if len(buildings) < 2:
         raise AppError("one building only", expected="two folders or more with --data")
     found = m.watched(
-        "Other buildings", trials.building(m.bench, m.seed, PERMUTATIONS), PERMUTATIONS
+        "Other buildings", splits.building(m.evaluation_set, m.seed, PERMUTATIONS), PERMUTATIONS
     )
-    judgement = None
+    open_set = None
     if len(buildings) > 2:
         with m.terminal.progress("Probabilities") as advance:
-            judgement = judge(m.bench, lambda done, total: advance(done, total, ""))
+            open_set = evaluate_open_set(
+                m.evaluation_set, lambda done, total: advance(done, total, "")
+            )
     notes = (
         f"{PERMUTATIONS} permutations: half of the buildings and half of their images are learned, "
         "the other buildings tested, then back (the paper's Fig. 15).",
@@ -134,7 +139,7 @@ def _building(m: Material) -> ProtocolReport:
         "training, a building never seen tested.",
         *m.notes,
     )
-    return ProtocolReport("", "", m.data, found, notes, judgement=judgement)
+    return ProtocolReport("", "", m.data, found, notes, open_set=open_set)
 
 
 def _route(m: Material) -> ProtocolReport:
@@ -142,14 +147,14 @@ def _route(m: Material) -> ProtocolReport:
     if len(names) < 2:
         raise AppError("one building only", expected="folders to learn from, then the route")
     routes = [walk for walk in m.walks if walk.light == "day"] or m.walks[-1:]
-    found: list[Trial] = []
+    found: list[SplitResult] = []
     runs: list[FinishedRun] = []
-    strange: set[str] = set()
+    novel: set[str] = set()
     for done, walk in enumerate(routes, 1):
         images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
         model = m.model_without(walk.building)
-        strange |= {image.example.label for image in images} - set(model.labels.names)
-        found += route_trials(
+        novel |= {image.example.label for image in images} - set(model.labels.names)
+        found += route_results(
             model, m.describer.predictions(model, images),
             [image.example.label for image in images],
             route_positions([image.example for image in images]),
@@ -158,15 +163,15 @@ def _route(m: Material) -> ProtocolReport:
             runs.append(finished_run(model, Path(walk.examples[0].session), m.seed, m.terminal))
         except RoomgraphError as error:
             m.terminal.warn(f"not mapped: {error}")
-    found += [trial for run in runs for trial in (run.nodes, run.frames)]
+    found += [result for run in runs for result in (run.nodes, run.frames)]
     notes = [
         "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
         "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
         "Filter: a hidden Markov model with the delay of the vote, as by default. Smoothed: "
         "beliefs propagated over the finished graph.",
     ]
-    if strange:
-        notes.append(f"Nobody taught the model what this is: {', '.join(sorted(strange))}.")
+    if novel:
+        notes.append(f"Nobody taught the model what this is: {', '.join(sorted(novel))}.")
     figures = {}
     if runs:
         figures = {
@@ -202,10 +207,10 @@ def _train_and_test(preset: Preset, root: Path, seed: int, terminal: Terminal) -
     truth = np.array([image.example.label for image in images])
     # The spread of five parts of the test images says how far the figure can be trusted.
     parts = np.array_split(np.random.default_rng(seed).permutation(len(truth)), 5)
-    trial = [Trial("train to test, fifths", truth[part], found[part]) for part in parts]
+    result = [SplitResult("train to test, fifths", truth[part], found[part]) for part in parts]
     accuracy: Any = describer.model.training["cross_validated_accuracy"]
     notes = (
         f"Learned from {root.name}/train alone, tested on {root.name}/test; std over five parts.",
         f"Cross-validated on the training images: {accuracy:.1%}.",
     )
-    return ProtocolReport("recognition", preset, (str(root),), tuple(trial), notes)
+    return ProtocolReport("recognition", preset, (str(root),), tuple(result), notes)

@@ -18,8 +18,8 @@ from roomgraph.semantics.evaluation.calibration import (
     brier_score,
     expected_calibration_error,
 )
-from roomgraph.semantics.evaluation.open_set import Judgement
-from roomgraph.semantics.evaluation.trials import Trial, per_class
+from roomgraph.semantics.evaluation.open_set import OpenSetEvaluation
+from roomgraph.semantics.evaluation.splits import SplitResult, per_class
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +32,13 @@ class ProtocolReport:
         The experiment, and how places were learned.
     data : tuple of str
         What it was run on.
-    trials : tuple of Trial
+    results : tuple of SplitResult
         All trainings and tests.
     notes : tuple of str
         What a reader has to know: what stands on both sides of a split, what was left out.
     headline : tuple of str
         Rows that the overall accuracy is the mean of; all if empty.
-    judgement : Judgement or None
+    open_set : OpenSetEvaluation or None
         Probabilities for buildings never seen.
     figures : mapping
         Further numbers by name.
@@ -47,29 +47,29 @@ class ProtocolReport:
     name: str
     preset: str
     data: tuple[str, ...]
-    trials: tuple[Trial, ...]
+    results: tuple[SplitResult, ...]
     notes: tuple[str, ...]
     headline: tuple[str, ...] = ()
-    judgement: Judgement | None = None
+    open_set: OpenSetEvaluation | None = None
     figures: dict[str, Any] = field(default_factory=dict)
 
     @property
-    def counted(self) -> list[Trial]:
-        """The trials of the headline rows."""
-        return [t for t in self.trials if not self.headline or t.row in self.headline]
+    def counted(self) -> list[SplitResult]:
+        """The results of the headline rows."""
+        return [t for t in self.results if not self.headline or t.row in self.headline]
 
     @property
     def confusion(self) -> LabelAccuracy:
         """True against found labels of the headline rows."""
         return compare_labels(
             (str(a), str(b))
-            for trial in self.counted
-            for a, b in zip(trial.truth, trial.found, strict=True)
+            for result in self.counted
+            for a, b in zip(result.truth, result.found, strict=True)
         )
 
     def content(self) -> dict[str, Any]:
         """Return the report as plain values."""
-        accuracies = [trial.accuracy for trial in self.counted]
+        accuracies = [result.accuracy for result in self.counted]
         content: dict[str, Any] = {
             "schema": "roomgraph/protocol/1",
             "protocol": self.name,
@@ -79,31 +79,31 @@ class ProtocolReport:
             "accuracy_std": _rounded(np.std(accuracies)),
             "class_mean": _rounded(np.mean(list(per_class(self.counted).values()))),
             "per_class": {k: _rounded(v) for k, v in per_class(self.counted).items()},
-            "rows": [_row(name, [t for t in self.trials if t.row == name]) for name in self.rows],
+            "rows": [_row(name, [t for t in self.results if t.row == name]) for name in self.rows],
             "confusion": {
                 "labels": list(self.confusion.names),
                 "counts": self.confusion.confusion.tolist(),
             },
             "notes": list(self.notes),
         }
-        if self.judgement is not None:
-            content |= judged(self.judgement)
+        if self.open_set is not None:
+            content |= open_set_figures(self.open_set)
         return content | self.figures
 
     @property
     def rows(self) -> list[str]:
         """The table's rows, in order."""
-        return list(dict.fromkeys(trial.row for trial in self.trials))
+        return list(dict.fromkeys(result.row for result in self.results))
 
 
-def judged(judgement: Judgement) -> dict[str, Any]:
+def open_set_figures(open_set: OpenSetEvaluation) -> dict[str, Any]:
     """Return the figures of the probabilities."""
-    confidence, right = judgement.confidence
-    index = np.array([judgement.classes.index(str(name)) for name in judgement.truth])
-    areas = {k: auroc(judgement.usual[k], v) for k, v in judgement.strange.items() if len(v)}
+    confidence, right = open_set.confidence
+    index = np.array([open_set.classes.index(str(name)) for name in open_set.truth])
+    areas = {k: auroc(open_set.known[k], v) for k, v in open_set.novel.items() if len(v)}
     return {
         "ece": _rounded(expected_calibration_error(confidence, right)),
-        "brier": _rounded(brier_score(judgement.probabilities, index)),
+        "brier": _rounded(brier_score(open_set.probabilities, index)),
         "unknown_auroc_mean": _rounded(np.mean(list(areas.values()))),
         "unknown_auroc": {name: _rounded(value) for name, value in areas.items()},
     }
@@ -116,7 +116,7 @@ def write_report(directory: Path, report: ProtocolReport) -> dict[str, Any]:
     text = json.dumps(content, indent=1, allow_nan=False)
     write_text(directory / f"{report.name}.json", text + "\n")
     write_text(directory / f"{report.name}.md", markdown(content))
-    draw(directory / f"{report.name}.png", content, report.confusion, report.judgement)
+    draw(directory / f"{report.name}.png", content, report.confusion, report.open_set)
     return content
 
 
@@ -131,7 +131,7 @@ def markdown(content: dict[str, Any]) -> str:
     for row in content["rows"]:
         lines.append(
             f"| {row['name']} | {row['accuracy_mean']:.1%} | {row['accuracy_std']:.1%} | "
-            f"{row['class_mean']:.1%} | {row['trials']} | {row['images']} |"
+            f"{row['class_mean']:.1%} | {row['results']} | {row['images']} |"
         )
     lines += ["", "| class | right |", "| --- | ---: |"]
     lines += [f"| {name} | {share:.1%} |" for name, share in content["per_class"].items()]
@@ -145,15 +145,15 @@ def markdown(content: dict[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _row(name: str, trials: Sequence[Trial]) -> dict[str, Any]:
-    accuracies = [trial.accuracy for trial in trials]
+def _row(name: str, results: Sequence[SplitResult]) -> dict[str, Any]:
+    accuracies = [result.accuracy for result in results]
     return {
         "name": name,
         "accuracy_mean": _rounded(np.mean(accuracies)),
         "accuracy_std": _rounded(np.std(accuracies)),
-        "class_mean": _rounded(np.mean(list(per_class(trials).values()))),
-        "trials": len(trials),
-        "images": sum(len(trial.truth) for trial in trials),
+        "class_mean": _rounded(np.mean(list(per_class(results).values()))),
+        "results": len(results),
+        "images": sum(len(result.truth) for result in results),
     }
 
 

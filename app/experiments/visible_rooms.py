@@ -28,7 +28,7 @@ _UNKNOWN_STEP_M = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class VisibleRoom:
     """What an image shows.
 
     Attributes
@@ -74,15 +74,15 @@ def doorway_distances(walks: Sequence[Walk], examples: Sequence[Example]) -> NDA
     return np.array([found[_key(example)] for example in examples])
 
 
-def sights(walks: Sequence[Walk], examples: Sequence[Example]) -> list[Sight]:
+def visible_rooms(walks: Sequence[Walk], examples: Sequence[Example]) -> list[VisibleRoom]:
     """Return what each image shows; nothing where a walk has no poses or no floor plan."""
-    found: dict[tuple[str, float], Sight] = {}
+    found: dict[tuple[str, float], VisibleRoom] = {}
     wanted = {_key(example) for example in examples}
     for walk in walks:
         own = [example for example in walk.examples if _key(example) in wanted]
         if not (walk.root / FILE_NAME).is_file():
             return []
-        found |= zip(map(_key, own), _sights_of_walk(walk.root, own), strict=True)
+        found |= zip(map(_key, own), _visible_rooms_of_walk(walk.root, own), strict=True)
     return [found[_key(example)] for example in examples]
 
 
@@ -106,25 +106,25 @@ def stretches_along(
     return order, stretches
 
 
-def _sights_of_walk(root: Path, examples: Sequence[Example]) -> list[Sight]:
+def _visible_rooms_of_walk(root: Path, examples: Sequence[Example]) -> list[VisibleRoom]:
     sequence, plan = open_sequence(root), read_floor_plan(root / FILE_NAME)
     truth = sequence.ground_truth
     assert truth is not None  # a building on disk has its poses
     index = RoomIndex([room.outline for room in plan.rooms])
     stamps = np.asarray(sequence.stamps_s)
 
-    def look(example: Example, pose: NDArray[np.float64]) -> Sight:
+    def look(example: Example, pose: NDArray[np.float64]) -> VisibleRoom:
         frame = sequence[int(np.abs(stamps - example.stamp_s).argmin())]
-        return _sight(index.shares(_floor_points(frame, pose)), plan, example.place)
+        return _visible_room(index.shares(_floor_points(frame, pose)), plan, example.place)
 
     with ThreadPoolExecutor() as pool:
         return list(pool.map(look, examples, truth.T_world_camera[_nearest(truth, examples)]))
 
 
-def _sight(shares: NDArray[np.float64], plan: FloorPlanTruth, place: str) -> Sight:
+def _visible_room(shares: NDArray[np.float64], plan: FloorPlanTruth, place: str) -> VisibleRoom:
     most = plan.rooms[int(shares.argmax())]
     own = [share for share, room in zip(shares, plan.rooms, strict=True) if room.name == place]
-    return Sight(most.label, most.name, float(sum(own)))
+    return VisibleRoom(most.label, most.name, float(sum(own)))
 
 
 def _floor_points(frame: Frame, T_world_camera: NDArray[np.float64]) -> NDArray[np.float64]:

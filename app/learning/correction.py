@@ -74,7 +74,7 @@ def learn_from_run(
     Raises
     ------
     SemanticsError
-        The model keeps no lessons.
+        The model keeps no exemplars.
     """
     sequence = folder.read_input().open()
     extractor = FeatureExtractor(model.features)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.files import replacing
-from roomgraph.semantics.graph.graph import Doorway, Extent, SemanticGraph
+from roomgraph.semantics.graph.graph import Doorway, RoomPolygon, SemanticGraph
 from roomgraph.semantics.rooms.doorway_lines import doorway_ends
 from roomgraph.slam.reconstruction.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 
@@ -44,7 +44,7 @@ def draw_floor_plan(graph: SemanticGraph, grid: OccupancyGrid, path_world: Float
     Parameters
     ----------
     graph : SemanticGraph
-        With the places' extents, where known.
+        With the places' rooms, where known.
     grid : OccupancyGrid
         Walls and furniture.
     path_world : (N, 3) float64
@@ -87,8 +87,8 @@ def save_floor_plan(figure: Figure, png: Path, svg: Path) -> None:
 
 def _window(graph: SemanticGraph, grid: OccupancyGrid) -> FloatArray:
     """Return lowest and highest x, lowest and highest y (2, 2) of all that is to be seen."""
-    if graph.extents:
-        points = np.concatenate([extent.polygon_map for extent in graph.extents])
+    if graph.rooms:
+        points = np.concatenate([room.polygon_map for room in graph.rooms])
     else:
         rows, columns = np.nonzero(grid.cells >= FREE)
         points = np.column_stack([columns, rows]) * grid.cell_m + grid.origin_xy
@@ -98,29 +98,29 @@ def _window(graph: SemanticGraph, grid: OccupancyGrid) -> FloatArray:
 
 
 def _draw_rooms(axes: Axes, graph: SemanticGraph) -> None:
-    for extent in graph.extents:
-        colour = _colour(graph, extent.label_id)
-        axes.fill(*extent.polygon_map.T, fc=(*colour, 0.30), ec=(*colour, 0.9), lw=1.0, zorder=1)
+    for room in graph.rooms:
+        colour = _colour(graph, room.label_id)
+        axes.fill(*room.polygon_map.T, fc=(*colour, 0.30), ec=(*colour, 0.9), lw=1.0, zorder=1)
 
 
 def _draw_cells(axes: Axes, graph: SemanticGraph, grid: OccupancyGrid) -> None:
     """Paint walls dark and furniture lighter; free space without a room hardly at all."""
     occupied = grid.cells == OCCUPIED
     image = np.zeros((*grid.cells.shape, 4), dtype=np.uint8)
-    if not graph.extents:
+    if not graph.rooms:
         image[grid.cells == FREE] = _SEEN
     image[occupied] = _WALL
     rows, columns = np.nonzero(occupied)
     centres = (np.column_stack([columns, rows]) + 0.5) * grid.cell_m + grid.origin_xy
-    for extent in graph.extents:
-        outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
+    for room in graph.rooms:
+        outline = Outline(np.vstack([room.polygon_map, room.polygon_map[:1]]))
         inside = outline.contains_points(centres, radius=-_WALL_REACH_M)
         image[rows[inside], columns[inside]] = _FURNITURE
     low = grid.origin_xy
     high = low + np.array(grid.cells.shape[::-1]) * grid.cell_m
     limits = axes.axis()
     axes.imshow(
-        image, extent=(low[0], high[0], low[1], high[1]), origin="lower",
+        image, room=(low[0], high[0], low[1], high[1]), origin="lower",
         interpolation="nearest", zorder=2,
     )  # fmt: skip
     axes.axis(limits)
@@ -137,11 +137,11 @@ def _name_rooms(
     axes: Axes, graph: SemanticGraph, path_map: FloatArray, points_per_metre: float
 ) -> None:
     """Write each place's name and area into it, as large as fits, clear of the way if it can be."""
-    ground = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
-    for extent in graph.extents:
-        name = extent.name.replace("_", " ")
-        area = f"{extent.area_m2:.1f} m²"
-        width = float(np.ptp(extent.polygon_map[:, 0])) * points_per_metre
+    background = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
+    for room in graph.rooms:
+        name = room.name.replace("_", " ")
+        area = f"{room.area_m2:.1f} m²"
+        width = float(np.ptp(room.polygon_map[:, 0])) * points_per_metre
         size = float(np.clip(width / (_EM * max(len(name), 6)), _SMALL, _LARGE))
         tries = []
         for text, lines, scale in (
@@ -149,38 +149,40 @@ def _name_rooms(
         ):  # fmt: skip
             letters = _TIGHT * max(len(line) for line in text.split("\n"))
             box = scale * size / points_per_metre * np.array([letters, lines])
-            tries.append((text, scale * size, *_clear_spot(extent, path_map, box / 2)))
+            tries.append((text, scale * size, *_clear_spot(room, path_map, box / 2)))
         text, size, (x, y), _ = max(tries, key=lambda tried: tried[-1])
         axes.text(
             x, y, text, ha="center", va="center", fontsize=size,
-            color=_INK, fontweight="bold", linespacing=1.25, bbox=ground, zorder=5.5,
+            color=_INK, fontweight="bold", linespacing=1.25, bbox=background, zorder=5.5,
         )  # fmt: skip
 
 
-def _clear_spot(extent: Extent, path_map: FloatArray, half: FloatArray) -> tuple[FloatArray, float]:
+def _clear_spot(
+    room: RoomPolygon, path_map: FloatArray, half: FloatArray
+) -> tuple[FloatArray, float]:
     """Return where in a place something lies clear of a path (N, 2), and how clear, metres.
 
     It is twice `half` (2,) wide and high, metres, and near the place's middle; in the middle, with
     a clearance below 0, if it fits nowhere.
     """
-    low, high = extent.polygon_map.min(axis=0) + half, extent.polygon_map.max(axis=0) - half
+    low, high = room.polygon_map.min(axis=0) + half, room.polygon_map.max(axis=0) - half
     if (high <= low).any():
-        return extent.centre_map, -1.0
+        return room.centre_map, -1.0
     counts = np.clip((high - low) / _SPOT_M, 2, _MOST_SPOTS).astype(int)
     x, y = (np.linspace(*span) for span in zip(low, high, counts, strict=True))
     spots = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     corners = spots[:, None] + half * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
-    outline = Outline(np.vstack([extent.polygon_map, extent.polygon_map[:1]]))
+    outline = Outline(np.vstack([room.polygon_map, room.polygon_map[:1]]))
     fits = outline.contains_points(corners.reshape(-1, 2)).reshape(-1, 4).all(axis=1)
     if not fits.any():
-        return extent.centre_map, -1.0
+        return room.centre_map, -1.0
     spots = spots[fits]
     # Of a long way one spot each is enough, or it would take as much memory as it is long.
     way = np.unique(np.rint(path_map / _SPOT_M), axis=0) * _SPOT_M
     way = way[np.all((way > low - 2 * half) & (way < high + 2 * half), axis=1)]
     gaps = np.maximum(np.abs(spots[:, None] - way) - half, 0).max(axis=2)
     clear = np.minimum(gaps.min(axis=1, initial=_CLEAR_M), _CLEAR_M)
-    off = np.linalg.norm(spots - extent.centre_map, axis=1)
+    off = np.linalg.norm(spots - room.centre_map, axis=1)
     best = np.lexsort((off, -clear))[0]
     return spots[best], float(clear[best])
 

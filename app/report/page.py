@@ -30,7 +30,7 @@ _STAGES = {
     "read": "reading (in parallel)", "features": "features (in parallel)", "track": "tracking",
     "view": "showing", "sketch": "sketch (in parallel)", "label": "labelling",
     "graph": "graph", "map": "cloud (in parallel)",
-    "survey": "free space", "extents": "rooms", "write": "writing poses",
+    "floor": "free space", "rooms": "rooms", "write": "writing poses",
     "write graph": "writing graph", "write map": "writing cloud", "close": "ending recording",
 }  # fmt: skip
 

@@ -29,14 +29,14 @@ def place_content(folder: RunFolder, graph: SemanticGraph) -> dict[str, Any]:
     rows = []
     for name in graph.places:
         nodes = [node for node in graph.nodes if node.place == name]
-        extent = next((e for e in graph.extents if e.name == name), None)
+        room = next((e for e in graph.rooms if e.name == name), None)
         doors = {p for door in graph.doorways if name in door.places for p in door.places}
         rows.append({
             "name": name,
             "label": nodes[0].label.replace("_", " ") if nodes[0].label_id else _NONE,
             "colour": _hex(graph, nodes[0].label_id),
-            "score": f"{extent.score:.0%}" if extent and extent.score else _NONE,
-            "area": f"{extent.area_m2:.1f} m²" if extent else _NONE,
+            "score": f"{room.score:.0%}" if room and room.score else _NONE,
+            "area": f"{room.area_m2:.1f} m²" if room else _NONE,
             "first": f"{nodes[0].stamp_s - start:.1f} s",
             "last": f"{nodes[-1].stamp_s - start:.1f} s",
             "nodes": len(nodes),
@@ -93,9 +93,9 @@ def label_content(
         stamps, labels, np.array([float(row["score"]) for row in rows]), true, graph.labels
     )
     words = ""
-    if metrics.get("place_accuracy_per_frame_on_the_way") is not None:
+    if metrics.get("place_accuracy_per_frame_online") is not None:
         words = (
-            f"{metrics['place_accuracy_per_frame_on_the_way']:.1%} of frames right on the way, "
+            f"{metrics['place_accuracy_per_frame_online']:.1%} of frames right on the way, "
             f"{metrics['place_accuracy_per_frame']:.1%} of frames and "
             f"{metrics['place_accuracy']:.1%} of nodes at the end; "
             f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} rooms told apart."

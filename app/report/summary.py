@@ -20,10 +20,10 @@ def summary_content(
 ) -> dict[str, Any]:
     """Return the page's title, figures, warnings and floor plan."""
     name = Path(metrics["sequence"]).name
-    area = sum(extent.area_m2 for extent in graph.extents)
+    area = sum(room.area_m2 for room in graph.rooms)
     share = metrics["frames_tracked"] / max(1, metrics["frames"])
     figures = [
-        (str(len(graph.extents)), "places"),
+        (str(len(graph.rooms)), "places"),
         (f"{area:.0f} m²", "floor"),
         (f"{metrics['path_length_m']:.1f} m", "walked"),
         (f"{share:.0%}", f"of {metrics['frames']} frames tracked"),
@@ -45,15 +45,15 @@ def summary_content(
         "warnings": _warnings(graph, metrics),
         "labelled": len(graph.labels) > 1,
         "floor_plan": _picture(folder.floor_plan_png, "image/png"),
-        "plan_words": ", ".join(f"{e.name} {e.area_m2:.1f} m²" for e in graph.extents)
+        "plan_words": ", ".join(f"{e.name} {e.area_m2:.1f} m²" for e in graph.rooms)
         or "no rooms found",
     }
 
 
 def found_words(graph: SemanticGraph, metrics: Mapping[str, Any]) -> str:
     """Return in a sentence what a run found; nothing if that is no place."""
-    kinds = Counter(e.label.replace("_", " ") for e in graph.extents if e.label != UNKNOWN)
-    unnamed = len(graph.extents) - kinds.total()
+    kinds = Counter(e.label.replace("_", " ") for e in graph.rooms if e.label != UNKNOWN)
+    unnamed = len(graph.rooms) - kinds.total()
     parts = [_counted(count, kind) for kind, count in kinds.most_common()]
     if unnamed:
         parts.append(f"{_counted(unnamed, 'room')} without a label")

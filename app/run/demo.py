@@ -7,7 +7,7 @@ from typing import Any
 
 from roomgraph.app.console import Terminal
 from roomgraph.app.learning.training import train_model
-from roomgraph.app.run.session import Showing, map_sequence
+from roomgraph.app.run.session import OutputOptions, map_sequence
 from roomgraph.app.settings import AppSettings
 from roomgraph.app.storage.building_cache import building_settings, cached
 from roomgraph.app.storage.run_folder import RUN_MARKS, RunFolder, clear_output, make_run_folder
@@ -19,7 +19,7 @@ def run_demo(
     settings: AppSettings,
     output: Path | None,
     overwrite: bool,
-    showing: Showing,
+    outputs: OutputOptions,
     terminal: Terminal,
 ) -> tuple[RunFolder, dict[str, Any]]:
     """Run the demonstration; return its run folder and metrics.
@@ -27,14 +27,14 @@ def run_demo(
     Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
     The place model is kept in the run's folder.
     """
-    showing.check()
+    outputs.check()
     if output is not None:
         clear_output(output, overwrite, RUN_MARKS)
     known = building_settings(seed=2 * settings.seed)
     strange = building_settings(seed=2 * settings.seed + 1)
-    lessons = cached(("day", "night"), known, terminal)
+    exemplars = cached(("day", "night"), known, terminal)
     (strange_floor,) = cached(("day",), strange, terminal)
-    model = train_model(lessons, settings, terminal)
+    model = train_model(exemplars, settings, terminal)
     terminal.say(
         f"Learned from {sum(model.training['images'].values())} images; "
         f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
@@ -43,4 +43,4 @@ def run_demo(
     sequence = open_sequence(strange_floor)
     folder = make_run_folder(output, sequence.name, overwrite=False)
     save_model(folder.model, model)
-    return folder, map_sequence(sequence, settings, model, folder, showing, terminal)
+    return folder, map_sequence(sequence, settings, model, folder, outputs, terminal)

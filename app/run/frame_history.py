@@ -15,7 +15,7 @@ from roomgraph.semantics.labels import UNKNOWN
 from roomgraph.semantics.rooms.labelling import Vote
 from roomgraph.semantics.rooms.lookup import places_at
 from roomgraph.semantics.temporal.labeller import FrameLabel
-from roomgraph.slam.backend.pose_graph import Link
+from roomgraph.slam.backend.pose_graph import Constraint
 from roomgraph.slam.reconstruction.point_map import PointMap
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import Tracking, TrackingState
@@ -23,7 +23,7 @@ from roomgraph.slam.tracking import Tracking, TrackingState
 FloatArray = NDArray[np.float64]
 
 
-class Journal:
+class FrameHistory:
     """Keeps what was found of each frame, and says where that is in the world.
 
     Parameters
@@ -35,19 +35,19 @@ class Journal:
     ----------
     labels : list of FrameLabel
         By frame, without their features.
-    on_the_way : list of str
+    online : list of str
         By frame, the labels before the rooms were known.
     """
 
     def __init__(self, slam: Slam) -> None:
         self.slam = slam
         self.labels: list[FrameLabel] = []
-        self.on_the_way: list[str] = []
+        self.online: list[str] = []
 
     def add(self, label: FrameLabel) -> None:
         """Keep the next frame's label."""
         self.labels.append(replace(label, tracking=label.tracking.without_view()))
-        self.on_the_way.append(label.label)
+        self.online.append(label.label)
 
     def settle(self) -> list[Trajectory]:
         """Say at last of each frame whether its place in the world became known.
@@ -87,10 +87,10 @@ class Journal:
         centres = np.array([T[:3, 3] for _, T in way]).reshape(-1, 3)
         for (tracking, _), place in zip(way, places_at(graph, centres), strict=True):
             label = self.labels[tracking.index]
-            extent = graph.extents[place] if place >= 0 else None
-            if extent is not None and extent.label not in (UNKNOWN, label.label):
+            room = graph.rooms[place] if place >= 0 else None
+            if room is not None and room.label not in (UNKNOWN, label.label):
                 self.labels[tracking.index] = replace(
-                    label, label=extent.label, label_id=extent.label_id, score=extent.score
+                    label, label=room.label, label_id=room.label_id, score=room.score
                 )
 
     def trajectory(self) -> Trajectory:
@@ -108,39 +108,41 @@ class Journal:
         ]
 
     def map_view(self, points: PointMap, graph: SemanticGraph) -> MapView:
-        """Return a finished map as viewers are shown it, with keyframes, links and the way.
+        """Return a finished map as viewers are shown it, with keyframes, constraints and the way.
 
         Each point has the label of the place it lies in, else of the keyframe that saw it.
         """
-        view = _view_of(points, self.labels, self.slam.placed_poses, self.slam.links)
-        if not graph.extents:
+        view = _view_of(points, self.labels, self.slam.placed_poses, self.slam.constraints)
+        if not graph.rooms:
             return view
-        of_extent = np.array([extent.label_id for extent in graph.extents], dtype=np.uint16)
+        of_room = np.array([room.label_id for room in graph.rooms], dtype=np.uint16)
         place = places_at(graph, points.points_world)
-        return replace(view, label_ids=np.where(place >= 0, of_extent[place], view.label_ids))
+        return replace(view, label_ids=np.where(place >= 0, of_room[place], view.label_ids))
 
     def sketch(self) -> Callable[[], MapView]:
         """Return what draws the map as it is now, coarsely; see `Slam.map_sketcher`.
 
-        Without a place's extent, what is seen through a door bears the label of this side of it.
+        Without a place's room, what is seen through a door bears the label of this side of it.
         """
         draw, labels = self.slam.map_sketcher(), list(self.labels)
-        T_world_keyframe, links = self.slam.placed_poses, self.slam.links
-        return lambda: _view_of(draw(), labels, T_world_keyframe, links)
+        T_world_keyframe, constraints = self.slam.placed_poses, self.slam.constraints
+        return lambda: _view_of(draw(), labels, T_world_keyframe, constraints)
 
 
 def _view_of(
     points: PointMap,
     labels: Sequence[FrameLabel],
     T_world_keyframe: dict[int, FloatArray],
-    links: Sequence[Link],
+    constraints: Sequence[Constraint],
 ) -> MapView:
     """Return a map as viewers are shown it, each point labelled like the keyframe that saw it."""
-    between = [k for k in links if k.first in T_world_keyframe and k.second in T_world_keyframe]
+    between = [
+        k for k in constraints if k.first in T_world_keyframe and k.second in T_world_keyframe
+    ]
     ends = np.array([
         (T_world_keyframe[k.first][:3, 3], T_world_keyframe[k.second][:3, 3]) for k in between
     ]).reshape(-1, 2, 3)  # fmt: skip
-    loops = np.array([link.is_loop for link in between], dtype=bool)
+    loops = np.array([constraint.is_loop for constraint in between], dtype=bool)
     label_ids = np.zeros(max(T_world_keyframe, default=0) + 1, dtype=np.uint16)
     way = _way_of(labels, T_world_keyframe)
     for label in labels:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from roomgraph.app.clock import StageClock
-from roomgraph.app.run.frame_history import Journal
+from roomgraph.app.run.frame_history import FrameHistory
 from roomgraph.datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_plan
 from roomgraph.datasets.places import PlaceTruth
 from roomgraph.datasets.sequence import Sequence
@@ -22,7 +22,7 @@ from roomgraph.semantics.evaluation.accuracy import (
 )
 from roomgraph.semantics.evaluation.topology import (
     evaluate_doorways,
-    evaluate_extents,
+    evaluate_rooms,
     largest_error,
 )
 from roomgraph.semantics.graph.graph import SemanticGraph
@@ -38,7 +38,7 @@ SCHEMA = "roomgraph/metrics/1"
 def run_metrics(
     sequence: Sequence,
     slam: Slam,
-    journal: Journal,
+    history: FrameHistory,
     trajectory: Trajectory,
     graph: SemanticGraph,
     points: PointMap,
@@ -46,7 +46,7 @@ def run_metrics(
     warnings: Iterable[str] = (),
 ) -> dict[str, Any]:
     """Return what `metrics.json` holds."""
-    labels = journal.labels
+    labels = history.labels
     states = Counter(label.tracking.state for label in labels)
     tracked = sum(count for state, count in states.items() if state.has_pose)
     seconds = clock.elapsed_s
@@ -79,9 +79,9 @@ def run_metrics(
         stamps = [label.tracking.stamp_s for label in labels]
         frames = list(zip(stamps, (label.label for label in labels), strict=True))
         metrics |= place_metrics(graph, frames, sequence.places)
-        before = list(zip(stamps, journal.on_the_way, strict=True))
-        on_the_way = evaluate_frames(before, sequence.places).overall
-        metrics["place_accuracy_per_frame_on_the_way"] = _rounded(on_the_way)
+        before = list(zip(stamps, history.online, strict=True))
+        online = evaluate_frames(before, sequence.places).overall
+        metrics["place_accuracy_per_frame_online"] = _rounded(online)
         plan = sequence.root / FILE_NAME
         if plan.is_file():
             metrics |= topology_metrics(graph, read_floor_plan(plan), metrics["rooms_matched"])
@@ -91,8 +91,8 @@ def run_metrics(
 def topology_metrics(
     graph: SemanticGraph, truth: FloorPlanTruth, matches: dict[str, str]
 ) -> dict[str, Any]:
-    """Return how right the places' extents and the doorways are; `matches` is room to place."""
-    places, errors = evaluate_extents(graph, truth.areas_m2, matches)
+    """Return how right the places' rooms and the doorways are; `matches` is room to place."""
+    places, errors = evaluate_rooms(graph, truth.areas_m2, matches)
     doorways = evaluate_doorways(graph, truth.doorways, matches)
     return {
         "place_precision": _rounded(places.precision),

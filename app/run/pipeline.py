@@ -15,8 +15,8 @@ from threadpoolctl import threadpool_limits
 from roomgraph.app.clock import StageClock
 from roomgraph.app.pacing import GrowthGate
 from roomgraph.app.prefetch import prefetch
-from roomgraph.app.run.finalisation import ProductMaker
-from roomgraph.app.run.frame_history import Journal
+from roomgraph.app.run.finalisation import Finalisation
+from roomgraph.app.run.frame_history import FrameHistory
 from roomgraph.app.run.metrics import run_metrics
 from roomgraph.app.settings import AppSettings
 from roomgraph.app.storage.recorder import Recorder
@@ -81,7 +81,7 @@ class Pipeline:
         self.labels = model.labels if model is not None else LabelSpace.of(())
         self.labeller = PlaceLabeller(model, settings.semantics.labeller)
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
-        self.journal = Journal(self.slam)
+        self.history = FrameHistory(self.slam)
         self._unlabelled: deque[Tracking] = deque()
         self._map_gate = GrowthGate(settings.recording.map_every, GROWTH_PARTS)
         self._graph_gate = GrowthGate(1, GROWTH_PARTS)
@@ -142,7 +142,7 @@ class Pipeline:
         for label in labels:
             with self.clock.stage("graph"):
                 dropped = self.topology.update(label, self.slam.keyframe_poses)
-            self.journal.add(label)
+            self.history.add(label)
             self.recorder.add_frame(label)
             self.viewer.show_label(label.tracking.index, label.label_id, label.label, label.score)
             if dropped:
@@ -174,7 +174,7 @@ class Pipeline:
 
     def _sketch(self) -> Callable[[], MapView]:
         """Return what draws the map as it is now, timed where it is drawn."""
-        draw = self.journal.sketch()
+        draw = self.history.sketch()
 
         def timed() -> MapView:
             with self.clock.stage("sketch"):
@@ -191,7 +191,7 @@ class Pipeline:
 
     def _checkpoint(self, tracking: Tracking) -> None:
         if (tracking.index + 1) % self.settings.recording.checkpoint_every == 0:
-            self.recorder.write_trajectory(self.journal.trajectory())
+            self.recorder.write_trajectory(self.history.trajectory())
 
     def _finish(self) -> dict[str, Any]:
         """Write everything, from a whole run or from what there is of it."""
@@ -199,13 +199,13 @@ class Pipeline:
         failure = self._wait()
         self._label_but(0)
         self._take(self.labeller.finish())
-        maker = ProductMaker(
-            self.sequence.stamps_s, self.slam, self.topology, self.journal, self.settings,
+        maker = Finalisation(
+            self.sequence.stamps_s, self.slam, self.topology, self.history, self.settings,
             self.recorder, self.viewer, self.clock,
         )  # fmt: skip
         made = maker.make()
         metrics = run_metrics(
-            self.sequence, self.slam, self.journal, made.trajectory, made.graph, made.points,
+            self.sequence, self.slam, self.history, made.trajectory, made.graph, made.points,
             self.clock, [*self.warnings, *made.warnings],
         )  # fmt: skip
         self.recorder.write_metrics(metrics)
@@ -239,8 +239,8 @@ class Pipeline:
 
     def _state(self, tracking: Tracking) -> str:
         said = [tracking.state.value, f"{len(self.slam.keyframe_poses)} keyframes"]
-        if self.labels.names[1:] and self.journal.labels:
-            said.insert(1, self.journal.labels[-1].label)
+        if self.labels.names[1:] and self.history.labels:
+            said.insert(1, self.history.labels[-1].label)
         return ", ".join(said)
 
 

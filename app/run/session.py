@@ -25,7 +25,7 @@ logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
-class Showing:
+class OutputOptions:
     """How a run is shown: live in Rerun, recorded for it, and as a report."""
 
     live: bool = False
@@ -45,7 +45,7 @@ def map_sequence(
     settings: AppSettings,
     model: PlaceModel | None,
     folder: RunFolder,
-    showing: Showing,
+    outputs: OutputOptions,
     terminal: Terminal,
     options: InputOptions | None = None,
 ) -> dict[str, Any]:
@@ -62,7 +62,7 @@ def map_sequence(
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(note, dim=True)
-        viewer = _viewer(folder, settings, showing)  # is made while the data is looked at
+        viewer = _viewer(folder, settings, outputs)  # is made while the data is looked at
         found = _examine(sequence, settings, terminal)
         if found.sequence is not sequence:
             sequence = found.sequence
@@ -78,7 +78,7 @@ def map_sequence(
                 say = f"`roomgraph report {folder.root}` and `roomgraph view {folder.root}` show it"
                 terminal.say(f"What was mapped until now is in {folder.root}: {say}.")
                 raise
-        if showing.report and metrics["frames_tracked"]:
+        if outputs.report and metrics["frames_tracked"]:
             from roomgraph.app.report.page import write_report
 
             write_report(folder, sequence)
@@ -132,15 +132,15 @@ def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSett
     return settings.model_copy(update={"slam": slam})
 
 
-def _viewer(folder: RunFolder, settings: AppSettings, showing: Showing) -> Viewer:
-    if not showing.live and not showing.save:
+def _viewer(folder: RunFolder, settings: AppSettings, outputs: OutputOptions) -> Viewer:
+    if not outputs.live and not outputs.save:
         return NoViewer()
     from roomgraph.app.viewer.threaded import ThreadedViewer
 
     def make() -> Viewer:
         from roomgraph.app.viewer.rerun import RerunViewer
 
-        return RerunViewer(save, showing.live, settings.viewer)
+        return RerunViewer(save, outputs.live, settings.viewer)
 
-    save = folder.recording if showing.save else None
+    save = folder.recording if outputs.save else None
     return ThreadedViewer(make)

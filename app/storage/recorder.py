@@ -25,7 +25,10 @@ from roomgraph.semantics.temporal.labeller import FrameLabel
 from roomgraph.slam.backend.pose_graph import PoseGraph
 from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid
 from roomgraph.slam.reconstruction.point_map import PointMap
-from roomgraph.slam.relocalisation.keyframe_database import KeyframeMemory, write_memory
+from roomgraph.slam.relocalisation.keyframe_database import (
+    KeyframeDatabase,
+    write_keyframe_database,
+)
 from roomgraph.slam.tracking import Tracking, TrackingState
 
 
@@ -68,15 +71,15 @@ class Recorder:
         write_tum(self.folder.trajectory, trajectory)
 
     def write_pose_graph(self, graph: PoseGraph, stamps_s: Mapping[int, float]) -> None:
-        """Write the poses of keyframes, given with their stamps, and the links between them."""
+        """Write the poses of keyframes, given with their stamps, and their constraints."""
         T = np.array([graph[key] for key in stamps_s]).reshape(-1, 4, 4)
         write_tum(self.folder.keyframes, Trajectory(np.array(list(stamps_s.values())), T))
         graph.write_g2o(self.folder.pose_graph, set(stamps_s))
 
-    def write_memory(self, memory: KeyframeMemory | None) -> None:
+    def write_keyframe_database(self, database: KeyframeDatabase | None) -> None:
         """Write what is kept of the keyframes, if there are any."""
-        if memory is not None:
-            write_memory(self.folder.memory, memory)
+        if database is not None:
+            write_keyframe_database(self.folder.keyframe_database, database)
 
     def write_map(
         self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace

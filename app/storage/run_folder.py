@@ -53,7 +53,7 @@ class RunFolder:
         return self.root / "pose_graph.g2o"
 
     @property
-    def memory(self) -> Path:
+    def keyframe_database(self) -> Path:
         """What is kept of the keyframes to recognise them by."""
         return self.root / "keyframes.npz"
 

@@ -79,11 +79,11 @@ def _log_floor(recording: rr.RecordingStream, graph: SemanticGraph) -> None:
         heights = np.full(len(points_map), height_m)
         return se3.transform(T_world_map, np.column_stack([points_map, heights]))
 
-    outlines = [np.vstack([e.polygon_map, e.polygon_map[:1]]) for e in graph.extents]
+    outlines = [np.vstack([e.polygon_map, e.polygon_map[:1]]) for e in graph.rooms]
     rooms = rr.LineStrips3D(
         [raised(outline, _OUTLINE_M) for outline in outlines],
-        colors=[_readable(graph.labels.colours[e.label_id]) for e in graph.extents],
-        labels=[f"{e.name}: {e.area_m2:.1f} m²" for e in graph.extents], show_labels=False,
+        colors=[_readable(graph.labels.colours[e.label_id]) for e in graph.rooms],
+        labels=[f"{e.name}: {e.area_m2:.1f} m²" for e in graph.rooms], show_labels=False,
         radii=rr.Radius.ui_points(1.6),
     )  # fmt: skip
     ends = [doorway_ends(graph, door) for door in graph.doorways]
@@ -102,7 +102,7 @@ def _log_plan(
     """Send every node as a dot, and the places' names over those in their middles."""
     ids = [str(node.id) for node in graph.nodes]
     positions, named = _laid_out(graph, axes), list(spots.values())
-    # Of full strength: in a browser the ground may be light.
+    # Of full strength: in a browser the background may be light.
     colours = [_colour(graph, i) for i in range(len(ids))]
     dots = rr.GraphNodes(ids, positions=positions, radii=5.0, colors=colours, show_labels=False)
     edges = rr.GraphEdges(

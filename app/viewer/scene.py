@@ -144,7 +144,7 @@ def log_pose_graph(recording: rr.RecordingStream, view: MapView) -> None:
         view.T_world_keyframe[:, :3, 3], colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)
     )
     log("world/keyframes", keyframes)
-    log("world/pose_graph/links", _lines(view.links, LINK_COLOUR, 0.4))
+    log("world/pose_graph/constraints", _lines(view.constraints, LINK_COLOUR, 0.4))
     log("world/pose_graph/loops", _lines(view.loops, LOOP_COLOUR, 0.6))
 
 

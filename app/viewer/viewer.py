@@ -58,10 +58,10 @@ class MapView:
         Ids of the K keyframes that have a place in the world.
     T_world_keyframe : (K, 4, 4) float64
         Their poses.
-    links : (L, 2, 3) float64
-        Ends of the pose graph's links.
+    constraints : (L, 2, 3) float64
+        Ends of the pose graph's constraints.
     loops : (M, 2, 3) float64
-        Ends of the links that close loops.
+        Ends of the constraints that close loops.
     trajectory : (F, 3) float64
         Camera centres of all labelled frames with a place in the world, as estimated now.
     frames : tuple of int
@@ -74,7 +74,7 @@ class MapView:
     label_ids: NDArray[np.uint16]
     keyframes: tuple[int, ...]
     T_world_keyframe: FloatArray
-    links: FloatArray
+    constraints: FloatArray
     loops: FloatArray
     trajectory: FloatArray
     frames: tuple[int, ...]

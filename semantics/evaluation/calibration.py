@@ -1,4 +1,4 @@
-"""How far probabilities can be believed, and how well what is strange stands out."""
+"""How far probabilities can be believed, and how well what is novel stands out."""
 
 from __future__ import annotations
 
@@ -50,15 +50,15 @@ def brier_score(probabilities: FloatArray, index: NDArray[np.integer]) -> float:
     return float(np.mean(((probabilities - truth) ** 2).sum(axis=1)))
 
 
-def auroc(usual: FloatArray, strange: FloatArray) -> float:
-    """Return the chance that something usual scores higher than something strange.
+def auroc(known: FloatArray, novel: FloatArray) -> float:
+    """Return the chance that something known scores higher than something novel.
 
     The area under the curve of the rates of acceptance, by ranks (Mann-Whitney); ties count half.
     """
     from scipy.stats import rankdata
 
-    ranks = rankdata(np.concatenate([usual, strange]))[: len(usual)]
-    return float((ranks.sum() - len(usual) * (len(usual) + 1) / 2) / (len(usual) * len(strange)))
+    ranks = rankdata(np.concatenate([known, novel]))[: len(known)]
+    return float((ranks.sum() - len(known) * (len(known) + 1) / 2) / (len(known) * len(novel)))
 
 
 def rejection_curve(confidence: FloatArray, is_right: NDArray[np.bool_]) -> FloatArray:

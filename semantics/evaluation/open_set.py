@@ -9,24 +9,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
-from roomgraph.semantics.evaluation.trials import Bench
+from roomgraph.semantics.evaluation.splits import EvaluationSet
 
 Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Judgement:
+class OpenSetEvaluation:
     """Probabilities (N, K) of images of buildings never seen, their truth (N,), familiarity (N,).
 
-    `strange` is the familiarity of images of a kind of place never seen.
+    `novel` is the familiarity of images of a kind of place never seen.
     """
 
     classes: list[str]
     probabilities: NDArray[np.float64]
     truth: NDArray[np.str_]
     familiarity: NDArray[np.float64]
-    strange: dict[str, NDArray[np.float64]] = field(default_factory=dict)
-    usual: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    novel: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    known: dict[str, NDArray[np.float64]] = field(default_factory=dict)
 
     @property
     def confidence(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -36,36 +36,38 @@ class Judgement:
         return self.probabilities.max(axis=1), right
 
 
-def judge(bench: Bench, progress: Progress) -> Judgement:
+def evaluate_open_set(evaluation_set: EvaluationSet, progress: Progress) -> OpenSetEvaluation:
     """Return probabilities for buildings left out, and familiarity for kinds left out as well."""
-    names, classes = sorted(set(bench.buildings.tolist())), bench.classes
-    shape = (len(bench.labels), len(classes))
+    names, classes = sorted(set(evaluation_set.buildings.tolist())), evaluation_set.classes
+    shape = (len(evaluation_set.labels), len(classes))
     probabilities, familiarity = np.zeros(shape), np.zeros(shape[0])
-    strange, usual = {}, {}
+    novel, known = {}, {}
     total = len(names) + len(classes)
     for done, name in enumerate(names, 1):
-        test = bench.buildings == name
-        fitted = _calibrated(bench, ~test)
-        decisions = _decisions(fitted, bench.vectors[test])
+        test = evaluation_set.buildings == name
+        fitted = _calibrated(evaluation_set, ~test)
+        decisions = _decisions(fitted, evaluation_set.vectors[test])
         columns = [classes.index(str(c)) for c in fitted.classes_]
         found = np.zeros((int(test.sum()), len(classes)))
         found[:, columns] = fitted.probabilities(decisions)
         probabilities[test], familiarity[test] = found, fitted.familiarity(decisions)
         progress(done, total)
     for i, kind in enumerate(classes):
-        test = bench.buildings == names[i % len(names)]
-        fitted = _calibrated(bench, ~test & (bench.labels != kind))
-        found = fitted.familiarity(_decisions(fitted, bench.vectors[test]))
-        is_strange = bench.labels[test] == kind
-        strange[kind], usual[kind] = found[is_strange], found[~is_strange]
+        test = evaluation_set.buildings == names[i % len(names)]
+        fitted = _calibrated(evaluation_set, ~test & (evaluation_set.labels != kind))
+        found = fitted.familiarity(_decisions(fitted, evaluation_set.vectors[test]))
+        is_novel = evaluation_set.labels[test] == kind
+        novel[kind], known[kind] = found[is_novel], found[~is_novel]
         progress(len(names) + i + 1, total)
-    return Judgement(classes, probabilities, bench.labels, familiarity, strange, usual)
+    return OpenSetEvaluation(
+        classes, probabilities, evaluation_set.labels, familiarity, novel, known
+    )
 
 
-def _calibrated(bench: Bench, train: NDArray[np.bool_]) -> PlaceClassifier:
-    buildings = bench.buildings[train].tolist()
-    return PlaceClassifier(bench.C, random_state=0).fit(
-        bench.vectors[train], bench.labels[train], buildings
+def _calibrated(evaluation_set: EvaluationSet, train: NDArray[np.bool_]) -> PlaceClassifier:
+    buildings = evaluation_set.buildings[train].tolist()
+    return PlaceClassifier(evaluation_set.C, random_state=0).fit(
+        evaluation_set.vectors[train], evaluation_set.labels[train], buildings
     )
 
 

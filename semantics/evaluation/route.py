@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.semantics.evaluation.trials import Trial
+from roomgraph.semantics.evaluation.splits import SplitResult
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
 from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
@@ -16,12 +16,12 @@ from roomgraph.slam.tracking import Tracking, TrackingState
 NODE_M = 1.0
 
 
-def route_trials(
+def route_results(
     model: PlaceModel,
     predictions: Sequence[PlacePrediction],
     truth: Sequence[str],
     positions: NDArray[np.float64],
-) -> list[Trial]:
+) -> list[SplitResult]:
     """Return how right the labels of frames and nodes are, with and without neighbours.
 
     Parameters
@@ -50,7 +50,7 @@ def route_trials(
         "nodes, filter": (known[nodes], filtered[nodes]),
         "nodes, smoothed": (known[nodes], smoothed),
     }
-    return [Trial(row, true, found) for row, (true, found) in rows.items()]
+    return [SplitResult(row, true, found) for row, (true, found) in rows.items()]
 
 
 def nodes_along(positions: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -1,4 +1,4 @@
-"""How right the places' extents and the doorways between them are, against the true floor plan."""
+"""How right the places' rooms and the doorways between them are, against the true floor plan."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Matching:
         return self.right / self.true if self.true else float("nan")
 
 
-def evaluate_extents(
+def evaluate_rooms(
     graph: SemanticGraph, areas_m2: Mapping[str, float], matches: Mapping[str, str]
 ) -> tuple[Matching, dict[str, float]]:
     """Compare places with true rooms, and their areas.
@@ -43,7 +43,7 @@ def evaluate_extents(
     Parameters
     ----------
     graph : SemanticGraph
-        With extents.
+        With rooms.
     areas_m2 : mapping of str to float
         True area of each room.
     matches : mapping of str to str
@@ -54,9 +54,9 @@ def evaluate_extents(
     Matching
         Of places: one is right if it is matched to a room.
     dict of str to float
-        For each room with a place that has an extent: the area found by the true one, less 1.
+        For each room with a place that has an room: the area found by the true one, less 1.
     """
-    found = {extent.name: extent.area_m2 for extent in graph.extents}
+    found = {room.name: room.area_m2 for room in graph.rooms}
     errors = {
         room: found[matches[room]] / area - 1
         for room, area in areas_m2.items()

@@ -14,7 +14,7 @@ from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.graph.graph import SemanticGraph
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
-from roomgraph.semantics.recognition.model import Lessons, PlaceModel
+from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
 from roomgraph.semantics.recognition.transitions import count_transitions
 
 
@@ -78,11 +78,11 @@ def correct(graph: SemanticGraph, place: str, label: str, change_m: float) -> Co
         else node
         for node in graph.nodes
     )
-    extents = tuple(
+    rooms = tuple(
         replace(e, name=name, label=label, label_id=label_id, score=1.0) if e.name == place else e
-        for e in graph.extents
+        for e in graph.rooms
     )
-    changed = replace(graph, labels=labels, nodes=nodes, extents=extents)
+    changed = replace(graph, labels=labels, nodes=nodes, rooms=rooms)
     doorways = tuple(_renamed(doorway, place, name) for doorway in graph.doorways)
     return Correction(
         replace(changed, doorways=doorways), name, tuple(told), tuple(sorted(inferred))
@@ -94,13 +94,13 @@ def learn_more(
 ) -> PlaceModel:
     """Return a model that knows more images of a label, which may be new to it.
 
-    The words stay as they are; the machines are learned again from the lessons that the model
+    The words stay as they are; the machines are learned again from the exemplars that the model
     keeps and the new ones.
 
     Parameters
     ----------
     model : PlaceModel
-        With lessons.
+        With exemplars.
     vectors : sequence of (L,) arrays
         What its classifier sees of the new images, see `PlaceModel.vector`.
     label, group : str
@@ -111,27 +111,27 @@ def learn_more(
     Raises
     ------
     SemanticsError
-        The model has no lessons, or there are no new images.
+        The model has no exemplars, or there are no new images.
     """
-    if model.lessons is None:
+    if model.exemplars is None:
         raise SemanticsError(
-            "the model keeps no lessons", expected="a model trained with lessons above 0",
+            "the model keeps no exemplars", expected="a model trained with exemplars above 0",
             hint="train it again",
         )  # fmt: skip
     if not len(vectors):
         raise SemanticsError("nothing to learn from", expected="an image of the place")
     count = len(vectors)
-    lessons = Lessons(
-        np.vstack([model.lessons.vectors, np.asarray(vectors, dtype=np.float16)]),
-        np.concatenate([model.lessons.labels, np.repeat(label, count)]),
-        np.concatenate([model.lessons.groups, np.repeat(group, count)]),
+    exemplars = Exemplars(
+        np.vstack([model.exemplars.vectors, np.asarray(vectors, dtype=np.float16)]),
+        np.concatenate([model.exemplars.labels, np.repeat(label, count)]),
+        np.concatenate([model.exemplars.groups, np.repeat(group, count)]),
     )
     classifier = PlaceClassifier(model.classifier.C, random_state=seed).fit(
-        lessons.vectors, lessons.labels, lessons.groups.tolist()
+        exemplars.vectors, exemplars.labels, exemplars.groups.tolist()
     )
     labels = model.labels.with_label(label)
     return replace(
-        model, labels=labels, classifier=classifier, lessons=lessons,
+        model, labels=labels, classifier=classifier, exemplars=exemplars,
         transitions=_extended(model.transitions, len(labels) - 1),
     )  # fmt: skip
 

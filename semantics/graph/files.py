@@ -15,14 +15,14 @@ from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.graph import (
     Doorway,
     EdgeKind,
-    Extent,
     GraphEdge,
     GraphNode,
+    RoomPolygon,
     SemanticGraph,
 )
 from roomgraph.semantics.labels import LabelSpace
 
-# Version 2 kept no evidence for labels; version 1 knew no places' extents and no doorways either.
+# Version 2 kept no evidence for labels; version 1 knew no places' rooms and no doorways either.
 SCHEMA, VERSION, OLD_VERSIONS = "roomgraph/semantic-graph", 3, (2, 1)
 _UNITS = {"position": "m", "length": "m", "stamp": "s", "area": "m2", "width": "m"}
 
@@ -141,7 +141,7 @@ def _floor(graph: SemanticGraph) -> dict[str, Any]:
             {"name": e.name, "label": e.label, "label_id": e.label_id, "score": round(e.score, 6),
              "area": round(e.area_m2, 4), "centre": e.centre_map.round(4).tolist(),
              "polygon": e.polygon_map.round(4).tolist()}
-            for e in graph.extents
+            for e in graph.rooms
         ],
         "doorways": [
             {"places": list(door.places), "position": door.position_map.round(4).tolist(),
@@ -163,7 +163,7 @@ def _graph(
         LabelSpace(tuple(labels["labels"]), colours),
         tuple(_read_node(node) for node in nodes),
         tuple(_read_edge(link) for link in links),
-        tuple(_read_extent(values) for values in floor.get("places", ())),
+        tuple(_read_room(values) for values in floor.get("places", ())),
         tuple(_read_doorway(values) for values in floor.get("doorways", ())),
         None if T is None else np.array(T, dtype=np.float64).reshape(4, 4),
     )
@@ -185,8 +185,8 @@ def _read_edge(values: dict[str, Any]) -> GraphEdge:
     return GraphEdge(source, target, float(values["length"]), EdgeKind(values["kind"]))
 
 
-def _read_extent(values: dict[str, Any]) -> Extent:
-    return Extent(
+def _read_room(values: dict[str, Any]) -> RoomPolygon:
+    return RoomPolygon(
         str(values["name"]), str(values["label"]), int(values["label_id"]), float(values["score"]),
         np.array(values["polygon"], dtype=np.float64).reshape(-1, 2), float(values["area"]),
         np.array(values["centre"], dtype=np.float64).reshape(2),

@@ -72,7 +72,7 @@ class GraphEdge:
 
 
 @dataclass(frozen=True, slots=True)
-class Extent:
+class RoomPolygon:
     """Where a place lies on the floor, in the map frame (z up, floor at 0).
 
     Attributes
@@ -123,7 +123,7 @@ class Doorway:
 class SemanticGraph:
     """Nodes along the path with their places, at the positions known when it was drawn.
 
-    At the end of a run the places have extents, and doorways join them.
+    At the end of a run the places have rooms, and doorways join them.
 
     Attributes
     ----------
@@ -131,18 +131,18 @@ class SemanticGraph:
         Ids and names of the labels.
     nodes, edges : tuple
         Spots along the path and what joins them.
-    extents : tuple of Extent
+    rooms : tuple of RoomPolygon
         Where the places lie, in the order of first passing.
     doorways : tuple of Doorway
         What joins the places.
     T_map_world : (4, 4) float64 or None
-        Maps world points to the map frame; None while there are no extents.
+        Maps world points to the map frame; None while there are no rooms.
     """
 
     labels: LabelSpace
     nodes: tuple[GraphNode, ...]
     edges: tuple[GraphEdge, ...]
-    extents: tuple[Extent, ...] = ()
+    rooms: tuple[RoomPolygon, ...] = ()
     doorways: tuple[Doorway, ...] = ()
     T_map_world: NDArray[np.float64] | None = None
 

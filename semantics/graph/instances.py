@@ -31,7 +31,7 @@ class InstanceSettings(Settings):
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class Observation:
     """What was seen where.
 
     Attributes
@@ -79,8 +79,8 @@ class PlaceNames:
     def assign(
         self,
         label: str,
-        here: Sight,
-        known: Sequence[Sight],
+        here: Observation,
+        known: Sequence[Observation],
         stays: Sequence[int],
         follows_last: bool,
     ) -> int:
@@ -90,9 +90,9 @@ class PlaceNames:
         ----------
         label : str
             The node's.
-        here : Sight
+        here : Observation
             What the node saw where.
-        known : sequence of Sight
+        known : sequence of Observation
             The same of all earlier nodes with this label, at their current positions, in order.
         stays : sequence of int
             The stay of each of these.
@@ -100,7 +100,7 @@ class PlaceNames:
             Whether the last of these is the node just before the new one: one does not step from
             one office into the next without passing something else.
         """
-        distances = _lengths([sight.position - here.position for sight in known])
+        distances = _lengths([observation.position - here.position for observation in known])
         stay = self._find(distances, stays, follows_last)
         if not self._stays[stay].is_settled:
             others = [i for i, other in enumerate(stays) if other != stay]

@@ -150,12 +150,12 @@ def _across(graph: SemanticGraph, grid: OccupancyGrid) -> Iterator[tuple[int, in
     free = ndimage.distance_transform_edt(grid.cells == FREE) * grid.cell_m > _CLEARANCE_M
     xy = se3.transform(grid.T_map_world, graph.positions)[:, :2]
     cells = np.floor((xy - grid.origin_xy) / grid.cell_m).astype(np.intp)[:, ::-1]
-    for extent in graph.extents:
-        corners = (extent.polygon_map - grid.origin_xy) / grid.cell_m - 0.5
+    for room in graph.rooms:
+        corners = (room.polygon_map - grid.origin_xy) / grid.cell_m - 0.5
         inside: NDArray[np.uint8] = np.zeros(free.shape, dtype=np.uint8)
         cv2.fillPoly(inside, [np.rint(corners).astype(np.int32)], 1)
         floor = free & (inside > 0)
-        ids = np.array([n.id for n in graph.nodes if n.place == extent.name], dtype=np.intp)
+        ids = np.array([n.id for n in graph.nodes if n.place == room.name], dtype=np.intp)
         if not floor.any() or len(ids) < 2:
             continue
         away, at = ndimage.distance_transform_edt(~floor, return_indices=True)
@@ -213,7 +213,7 @@ def _nearest(graph: SemanticGraph, values: list[float], name: str) -> int:
         point = _upright(graph, point[None])[0]
     else:
         gaps = np.linalg.norm(nodes[:, :2] - point, axis=1)
-    outlines = [extent.polygon_map for extent in graph.extents]
+    outlines = [room.polygon_map for room in graph.rooms]
     known = np.concatenate([nodes[:, :2], *outlines])
     low, high = known.min(axis=0) - _OUTSIDE_M, known.max(axis=0) + _OUTSIDE_M
     if (point[:2] < low).any() or (point[:2] > high).any():
@@ -229,9 +229,9 @@ def _nearest(graph: SemanticGraph, values: list[float], name: str) -> int:
 def _middle(graph: SemanticGraph, place: str) -> int:
     """Return the node nearest to a place's centre; without one, to all its nodes (the medoid)."""
     ids = np.array([node.id for node in graph.nodes if node.place == place])
-    for extent in graph.extents:
-        if extent.name == place:
-            gaps = upright(graph)[ids, :2] - extent.centre_map
+    for room in graph.rooms:
+        if room.name == place:
+            gaps = upright(graph)[ids, :2] - room.centre_map
             return int(ids[np.linalg.norm(gaps, axis=1).argmin()])
     positions = graph.positions[ids]
     distances = np.linalg.norm(positions[:, None] - positions[None], axis=2)

@@ -13,7 +13,7 @@ from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
-from roomgraph.semantics.graph.instances import InstanceSettings, PlaceNames, Sight
+from roomgraph.semantics.graph.instances import InstanceSettings, Observation, PlaceNames
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.temporal.labeller import FrameLabel
 from roomgraph.slam.tracking import Anchor
@@ -166,8 +166,11 @@ class TopologicalMap:
         known = [node for node in self._nodes if node.label == label]
         return self._names.assign(
             label,
-            Sight(_position(anchor, T_world_keyframe), frame_label.histogram),
-            [Sight(_position(node.anchor, T_world_keyframe), node.histogram) for node in known],
+            Observation(_position(anchor, T_world_keyframe), frame_label.histogram),
+            [
+                Observation(_position(node.anchor, T_world_keyframe), node.histogram)
+                for node in known
+            ],
             [node.stay for node in known if node.stay is not None],
             follows_last=bool(self._nodes) and self._nodes[-1].label == label,
         )

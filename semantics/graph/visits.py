@@ -46,18 +46,18 @@ class PlaceSummary:
 def summarise(graph: SemanticGraph) -> tuple[PlaceSummary, ...]:
     """Return the places of a graph, in the order of first passing."""
     stays = [list(group) for _, group in groupby(graph.nodes, key=lambda node: node.place)]
-    extents = {extent.name: extent for extent in graph.extents}
+    rooms = {room.name: room for room in graph.rooms}
     found = []
     for name in graph.places:
         inside = [node for node in graph.nodes if node.place == name]
-        extent = extents.get(name)
+        room = rooms.get(name)
         found.append(
             PlaceSummary(
                 name,
                 Counter(node.label for node in inside).most_common(1)[0][0],
-                extent.score if extent else sum(node.score for node in inside) / len(inside),
+                room.score if room else sum(node.score for node in inside) / len(inside),
                 tuple(node.id for node in inside),
-                extent.area_m2 if extent else None,
+                room.area_m2 if room else None,
                 tuple(Visit(s[0].stamp_s, s[-1].stamp_s) for s in stays if s[0].place == name),
             )
         )

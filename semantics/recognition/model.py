@@ -23,7 +23,7 @@ _WORDS = 5
 
 
 @dataclass(frozen=True, slots=True)
-class Lessons:
+class Exemplars:
     """What a model was learned from, as its classifier sees it, to learn more beside it later.
 
     Attributes
@@ -101,7 +101,7 @@ class PlaceModel:
     transitions : (K, K) float64
         Chance of each class (column) after leaving a class (row), in the order of the labels
         without ``unknown``; even where the training data were no walks.
-    lessons : Lessons or None
+    exemplars : Exemplars or None
         A part of the training data, so that another class can be taken in.
     """
 
@@ -115,7 +115,7 @@ class PlaceModel:
     encoder: FisherEncoder | None = None
     reject_below: float = 0.0
     transitions: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
-    lessons: Lessons | None = None
+    exemplars: Exemplars | None = None
 
     def __post_init__(self) -> None:
         if not self.transitions.size:

@@ -21,7 +21,7 @@ from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 from roomgraph.semantics.documents import read_document, write_document
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.labels import LabelSpace
-from roomgraph.semantics.recognition.model import Lessons, PlaceModel
+from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
 from roomgraph.slam.features.extraction import FeatureSettings
 
 SCHEMA, VERSION = "roomgraph/place-model", 2
@@ -118,10 +118,10 @@ def _arrays(model: PlaceModel) -> dict[str, NDArray[Any]]:
         "scaling": model.classifier.scaling_,
         "transitions": model.transitions,
     }
-    if model.lessons is not None:
-        arrays["lesson_vectors"] = model.lessons.vectors
-        arrays["lesson_labels"] = model.lessons.labels
-        arrays["lesson_groups"] = model.lessons.groups
+    if model.exemplars is not None:
+        arrays["lesson_vectors"] = model.exemplars.vectors
+        arrays["lesson_labels"] = model.exemplars.labels
+        arrays["lesson_groups"] = model.exemplars.groups
     if model.encoder is not None:
         arrays |= {PREFIX + name: array for name, array in model.encoder.arrays.items()}
     return arrays
@@ -151,18 +151,18 @@ def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceMod
         encoder,
         float(content["reject_below"]),
         arrays["transitions"],
-        _lessons(arrays),
+        _exemplars(arrays),
     )
 
 
-def _lessons(arrays: dict[str, NDArray[Any]]) -> Lessons | None:
+def _exemplars(arrays: dict[str, NDArray[Any]]) -> Exemplars | None:
     if "lesson_vectors" not in arrays:
         return None
     names = ("lesson_vectors", "lesson_labels", "lesson_groups")
     vectors, labels, groups = (arrays[name] for name in names)
     if vectors.shape != (len(labels), arrays["coef"].shape[1]) or len(groups) != len(labels):
-        raise ValueError(f"lessons of shape {vectors.shape}")
-    return Lessons(vectors, labels, groups)
+        raise ValueError(f"exemplars of shape {vectors.shape}")
+    return Exemplars(vectors, labels, groups)
 
 
 def _encoder(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> FisherEncoder | None:

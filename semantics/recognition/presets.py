@@ -46,7 +46,7 @@ class TrainingSettings(Settings):
         0.01, ge=0, lt=1,
         description="share of held-out images that may be called unknown to keep strange ones out",
     )  # fmt: skip
-    lessons: int = Field(
+    exemplars: int = Field(
         100, ge=0,
         description="images of each label kept in the model, so that it can take in others later",
     )  # fmt: skip

@@ -20,7 +20,7 @@ from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.recognition.description import Described, describe_images
 from roomgraph.semantics.recognition.encoding import learn_encoder, sample_of, vectors_of
 from roomgraph.semantics.recognition.examples import Example, thin_out
-from roomgraph.semantics.recognition.model import Lessons, PlaceModel
+from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
 from roomgraph.semantics.recognition.presets import TrainingSettings
 from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.slam.features.extraction import FeatureSettings
@@ -131,7 +131,7 @@ def learn(
         labels, bag, classifier, features, settings.normalisation, settings.min_features,
         asdict(summary), encoder, threshold(classifier, settings.reject),
         count_transitions(walks_of(usable), labels.names[1:]),
-        _lessons(vectors, truth, groups, settings.lessons),
+        _exemplars(vectors, truth, groups, settings.exemplars),
     )  # fmt: skip
 
 
@@ -140,9 +140,9 @@ def is_usable(image: Described, settings: TrainingSettings) -> bool:
     return len(image.descriptors) >= settings.min_features
 
 
-def _lessons(
+def _exemplars(
     vectors: NDArray[Any], truth: Sequence[str], groups: Sequence[str], most: int
-) -> Lessons | None:
+) -> Exemplars | None:
     """Return at most so many of each label, evenly spread."""
     if not most:
         return None
@@ -153,7 +153,7 @@ def _lessons(
             [own[np.linspace(0, len(own) - 1, min(most, len(own))).astype(int)] for own in rows]
         )
     )
-    return Lessons(vectors[kept].astype(np.float16), labels[kept], np.array(groups)[kept])
+    return Exemplars(vectors[kept].astype(np.float16), labels[kept], np.array(groups)[kept])
 
 
 def _check_labels(images: Counter[str]) -> None:

@@ -8,7 +8,7 @@ from scipy import ndimage
 
 from roomgraph.semantics.rooms.settings import RegionSettings
 from roomgraph.semantics.rooms.watershed import NEIGHBOURS, BoolImage, RegionImage
-from roomgraph.slam.reconstruction.occupancy_volume import Space
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 
 # A cell is solid from so many hits, and clear where more than so many rays passed for each hit.
 _SOLID, _CLEAR = 2, 2
@@ -22,20 +22,22 @@ _RAGGED = 2
 _AWAY = 2.5
 
 
-def interior(space: Space, settings: RegionSettings) -> tuple[BoolImage, BoolImage, BoolImage]:
+def interior(
+    volume: OccupancyVolume, settings: RegionSettings
+) -> tuple[BoolImage, BoolImage, BoolImage]:
     """Return which cells (R, C) are indoors, which solid from floor to top, which under a lintel.
 
     Over a table or under a shelf there is room, too: what counts is sight through the column at
     any height.
     """
-    hits, passes = space.hits[1:-1], space.passes[1:-1]
+    hits, passes = volume.hits[1:-1], volume.passes[1:-1]
     clear: BoolImage = passes > _CLEAR * hits.astype(np.int32)
     is_open = np.asarray(clear.any(axis=0), dtype=bool)
-    inside = is_open | (space.hits[0] > 0) | (space.passes[0] > 0)
-    high = space.layers(settings.lintel_low_m, settings.lintel_high_m)
-    below = space.layers(0.0, settings.lintel_low_m)
+    inside = is_open | (volume.hits[0] > 0) | (volume.passes[0] > 0)
+    high = volume.layers(settings.lintel_low_m, settings.lintel_high_m)
+    below = volume.layers(0.0, settings.lintel_low_m)
     lintel = np.asarray(
-        (space.hits[high] >= _SOLID).any(axis=0) & (space.passes[below] > 0).any(axis=0)
+        (volume.hits[high] >= _SOLID).any(axis=0) & (volume.passes[below] > 0).any(axis=0)
     )
     wall = np.asarray(((hits >= _SOLID) & ~clear).any(axis=0) & ~is_open)
     inside &= ~wall

@@ -20,7 +20,7 @@ from roomgraph.semantics.rooms.settings import RegionSettings
 FloatArray = NDArray[np.float64]
 
 
-class ExtentSettings(Settings):
+class RoomSettings(Settings):
     """How places and regions of the floor go together."""
 
     regions: RegionSettings = RegionSettings()
@@ -52,8 +52,8 @@ class Vote:
 
 
 @dataclass(slots=True)
-class Part:
-    """A place to be: its number in the image of parts, its label, and its nodes."""
+class LabelledRegion:
+    """A place to be: its number in the image of regions, its label, and its nodes."""
 
     number: int
     label: str
@@ -61,7 +61,7 @@ class Part:
     nodes: list[int]
 
 
-def make_parts(
+def label_rooms(
     graph: SemanticGraph,
     node_cells: NDArray[np.intp],
     regions: Regions,
@@ -69,15 +69,15 @@ def make_parts(
     of_frames: NDArray[np.int32],
     votes: Sequence[Vote],
     cell_m: float,
-    settings: ExtentSettings,
-) -> tuple[list[Part], Regions]:
+    settings: RoomSettings,
+) -> tuple[list[LabelledRegion], Regions]:
     """Make a part of each visited region, or several; return them with their images.
 
     A part of an open plan is a room's worth of floor in one piece. Labels that hold less, here and
     there, are what views of the one room were mistaken for.
     """
     seen, full = np.zeros_like(regions.seen), np.zeros_like(regions.full)
-    parts: list[Part] = []
+    labelled: list[LabelledRegion] = []
     for region in dict.fromkeys(int(r) for r in of_nodes if r):
         here = [votes[int(i)] for i in np.flatnonzero(of_frames == region)]
         inside = np.flatnonzero(of_nodes == region)
@@ -96,13 +96,13 @@ def make_parts(
             settings.min_part_m2 / cell_m**2,
         )
         for which, label in enumerate(kept):
-            number = len(parts) + 1
+            number = len(labelled) + 1
             for image, source in ((seen, regions.seen), (full, regions.full)):
                 image[(source == region) & (nearest == which)] = number
             at = nearest[tuple(np.clip(node_cells[inside], 0, np.array(seen.shape) - 1).T)]
             chosen = inside[at == which].tolist()
-            parts.append(Part(number, label, _score(here, label), chosen))
-    return sorted(parts, key=lambda part: min(part.nodes, default=len(graph.nodes))), Regions(
+            labelled.append(LabelledRegion(number, label, _score(here, label), chosen))
+    return sorted(labelled, key=lambda part: min(part.nodes, default=len(graph.nodes))), Regions(
         seen, full
     )
 

@@ -18,22 +18,22 @@ _MARGIN_CELLS = 8
 def places_at(
     graph: SemanticGraph, points_world: NDArray[np.floating], reach_m: float = 0.3
 ) -> NDArray[np.int32]:
-    """Return which of the graph's extents (N,) points (N, 3) lie over; -1 for none.
+    """Return which of the graph's rooms (N,) points (N, 3) lie over; -1 for none.
 
     Points just outside of all, as on the surface of a wall, go with the nearest.
 
     Parameters
     ----------
     graph : SemanticGraph
-        With extents.
+        With rooms.
     points_world : (N, 3) float
         Metres.
     reach_m : float
         Distance from an outline at most.
     """
-    if not graph.extents or graph.T_map_world is None:
+    if not graph.rooms or graph.T_map_world is None:
         return np.full(len(points_world), -1, dtype=np.int32)
-    outlines = [extent.polygon_map for extent in graph.extents]
+    outlines = [room.polygon_map for room in graph.rooms]
     corners = np.concatenate(outlines)
     low = corners.min(axis=0) - _MARGIN_CELLS * _CELL_M
     columns, rows = ((corners.max(axis=0) - low) / _CELL_M).astype(int) + _MARGIN_CELLS

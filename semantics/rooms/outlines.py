@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from roomgraph.slam.reconstruction.occupancy_volume import Space
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 
 FloatArray = NDArray[np.float64]
 # A spot's distance to the walls, as a share of the largest, from which it is far from them.
@@ -16,28 +16,28 @@ _INNERMOST = 0.8
 _FINER, _SIMPLIFIED = 3, 1.5
 
 
-def outline_of(mask: NDArray[np.bool_], space: Space) -> FloatArray:
+def outline_of(mask: NDArray[np.bool_], volume: OccupancyVolume) -> FloatArray:
     """Return the polygon (N, 2) around cells that hang together, metres, anticlockwise."""
     image = np.kron(mask, np.ones((_FINER, _FINER))).astype(np.uint8)
     outlines, _ = cv2.findContours(image, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     longest = max(outlines, key=len)
     outline = cv2.approxPolyDP(longest, _SIMPLIFIED * _FINER, closed=True)[:, 0]
-    polygon = (outline + 0.5) / _FINER * space.cell_m + space.origin_xy
+    polygon = (outline + 0.5) / _FINER * volume.cell_m + volume.origin_xy
     return np.asarray(polygon[::-1] if _turns_clockwise(polygon) else polygon)
 
 
-def area_m2(mask: NDArray[np.bool_], space: Space) -> float:
+def area_m2(mask: NDArray[np.bool_], volume: OccupancyVolume) -> float:
     """Return the area of cells, square metres."""
-    return float(mask.sum() * space.cell_m**2)
+    return float(mask.sum() * volume.cell_m**2)
 
 
-def centre_of(mask: NDArray[np.bool_], space: Space) -> FloatArray:
+def centre_of(mask: NDArray[np.bool_], volume: OccupancyVolume) -> FloatArray:
     """Return the spot (2,) next to the middle that is far from all walls, metres."""
     depth = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
     inner = np.argwhere(depth >= _INNERMOST * depth.max())
     middle = np.argwhere(mask).mean(axis=0)
     row, column = inner[int(np.linalg.norm(inner - middle, axis=1).argmin())]
-    return np.asarray((np.array([column, row]) + 0.5) * space.cell_m + space.origin_xy)
+    return np.asarray((np.array([column, row]) + 0.5) * volume.cell_m + volume.origin_xy)
 
 
 def largest_piece(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:

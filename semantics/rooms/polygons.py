@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from roomgraph.datasets import se3
-from roomgraph.semantics.graph.graph import UNLABELLED, Extent, GraphNode, SemanticGraph
+from roomgraph.semantics.graph.graph import UNLABELLED, GraphNode, RoomPolygon, SemanticGraph
 from roomgraph.semantics.labels import UNKNOWN
 from roomgraph.semantics.rooms.doorways import find_doorways
-from roomgraph.semantics.rooms.labelling import ExtentSettings, Part, Vote, make_parts
+from roomgraph.semantics.rooms.labelling import LabelledRegion, RoomSettings, Vote, label_rooms
 from roomgraph.semantics.rooms.outlines import area_m2, centre_of, largest_piece, outline_of
 from roomgraph.semantics.rooms.regions import segment
 from roomgraph.semantics.rooms.watershed import RegionImage
-from roomgraph.slam.reconstruction.floor_analysis import Survey
-from roomgraph.slam.reconstruction.occupancy_volume import Space
+from roomgraph.slam.reconstruction.floor_analysis import FloorAnalysis
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 
 
-def with_extents(
-    graph: SemanticGraph, surveyed: Survey, votes: Sequence[Vote], settings: ExtentSettings
+def with_rooms(
+    graph: SemanticGraph, floor: FloorAnalysis, votes: Sequence[Vote], settings: RoomSettings
 ) -> SemanticGraph:
-    """Return the graph with extents and doorways, its nodes at the place that they lie in.
+    """Return the graph with rooms and doorways, its nodes at the place that they lie in.
 
     All that lies in one room belongs to one place, whatever a single view looked like: this mends
     what a view through a door into the next room got wrong, and a room entered by two doors or
@@ -36,42 +36,40 @@ def with_extents(
     ----------
     graph : SemanticGraph
         As it came from the path.
-    surveyed : Survey
+    floor : FloorAnalysis
         Free space and map frame of the finished map.
     votes : sequence of Vote
-        Of all frames with a pose in the map that was surveyed. Nodes of other frames lie in a
+        Of all frames with a pose in the map. Nodes of other frames lie in a
         sub-map that never met it: they keep their places, under names of their own.
-    settings : ExtentSettings
+    settings : RoomSettings
         How regions are cut, and when they are one place.
     """
     if not graph.nodes:
         return graph
-    space, T = surveyed.space, surveyed.ground.T_map_world
+    volume, T = floor.volume, floor.floor_plane.T_map_world
     positions = np.array([vote.position_world for vote in votes]).reshape(-1, 3)
-    cells = space.cells_of(se3.transform(T, positions))
-    regions = segment(space, _by_cell(cells, votes, space.hits.shape[1:]), settings.regions)
+    cells = volume.cells_of(se3.transform(T, positions))
+    regions = segment(volume, _by_cell(cells, votes, volume.hits.shape[1:]), settings.regions)
     nodes_map = se3.transform(T, graph.positions)
-    node_cells = space.cells_of(nodes_map)
-    reach = settings.regions.detail_m / space.cell_m
+    node_cells = volume.cells_of(nodes_map)
+    reach = settings.regions.detail_m / volume.cell_m
     of_frames = _lookup(regions.seen, cells, reach)
     voted = {vote.frame for vote in votes}
     is_here = np.array([node.frame in voted for node in graph.nodes])
     of_nodes = np.where(is_here, _lookup(regions.seen, node_cells, reach), 0)
-    parts, images = make_parts(
-        graph, node_cells, regions, of_nodes, of_frames, votes, space.cell_m, settings
+    labelled, images = label_rooms(
+        graph, node_cells, regions, of_nodes, of_frames, votes, volume.cell_m, settings
     )
-    names = _names(parts)
-    nodes = _placed(graph, parts, names, is_here)
-    extents = tuple(
-        _extent(names[i], part, graph, images.full == part.number, space)
-        for i, part in enumerate(parts)
+    names = _names(labelled)
+    nodes = _placed(graph, labelled, names, is_here)
+    rooms = tuple(
+        _room(names[i], part, graph, images.full == part.number, volume)
+        for i, part in enumerate(labelled)
         if (images.full == part.number).any()
     )
-    numbers = {part.number: names[i] for i, part in enumerate(parts)}
-    doorways = find_doorways(
-        images.seen, numbers, nodes, nodes_map, surveyed, settings.min_doorway_m
-    )
-    return replace(graph, nodes=nodes, extents=extents, doorways=doorways, T_map_world=T)
+    numbers = {part.number: names[i] for i, part in enumerate(labelled)}
+    doorways = find_doorways(images.seen, numbers, nodes, nodes_map, floor, settings.min_doorway_m)
+    return replace(graph, nodes=nodes, rooms=rooms, doorways=doorways, T_map_world=T)
 
 
 def _by_cell(
@@ -97,11 +95,11 @@ def _lookup(regions: RegionImage, cells: NDArray[np.intp], reach: float) -> NDAr
     return np.where(distance[row, column] <= reach, found, 0)
 
 
-def _names(parts: Sequence[Part]) -> list[str]:
+def _names(labelled: Sequence[LabelledRegion]) -> list[str]:
     """Return names that number the places of each label in the order of first passing."""
     count: Counter[str] = Counter()
     names = []
-    for part in parts:
+    for part in labelled:
         kind = UNLABELLED if part.label == UNKNOWN else part.label
         count[kind] += 1
         names.append(f"{kind}{count[kind]}")
@@ -110,12 +108,12 @@ def _names(parts: Sequence[Part]) -> list[str]:
 
 def _placed(
     graph: SemanticGraph,
-    parts: Sequence[Part],
+    labelled: Sequence[LabelledRegion],
     names: Sequence[str],
     is_here: NDArray[np.bool_],
 ) -> tuple[GraphNode, ...]:
     """Put each node into its part; one that lies in none goes with the node before or after it."""
-    of_node = {i: k for k, part in enumerate(parts) for i in part.nodes}
+    of_node = {i: k for k, part in enumerate(labelled) for i in part.nodes}
     known = np.array(sorted(of_node), dtype=np.intp)
     taken = set(names)
     elsewhere: dict[str, str] = {}
@@ -127,7 +125,7 @@ def _placed(
             nodes.append(replace(node, place=elsewhere[node.place]))
             continue
         k = of_node[int(known[np.abs(known - i).argmin()])]
-        label = parts[k].label
+        label = labelled[k].label
         nodes.append(replace(node, place=names[k], label=label, label_id=graph.labels.id_of(label)))
     return tuple(nodes)
 
@@ -141,12 +139,16 @@ def _free_name(node: GraphNode, taken: set[str]) -> str:
     return name
 
 
-def _extent(
-    name: str, part: Part, graph: SemanticGraph, mask: NDArray[np.bool_], space: Space
-) -> Extent:
+def _room(
+    name: str,
+    part: LabelledRegion,
+    graph: SemanticGraph,
+    mask: NDArray[np.bool_],
+    volume: OccupancyVolume,
+) -> RoomPolygon:
     """Outline a place's largest piece."""
     mask = largest_piece(mask)
-    return Extent(
-        name, part.label, graph.labels.id_of(part.label), part.score, outline_of(mask, space),
-        area_m2(mask, space), centre_of(mask, space),
+    return RoomPolygon(
+        name, part.label, graph.labels.id_of(part.label), part.score, outline_of(mask, volume),
+        area_m2(mask, volume), centre_of(mask, volume),
     )  # fmt: skip

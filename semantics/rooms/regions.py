@@ -18,7 +18,7 @@ from roomgraph.semantics.rooms.watershed import (
     flood,
     spread,
 )
-from roomgraph.slam.reconstruction.occupancy_volume import Space
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 
 Weights = Mapping[str, float]
 
@@ -40,7 +40,7 @@ class Regions:
 
 
 def segment(
-    space: Space, votes: Mapping[tuple[int, int], Weights], settings: RegionSettings
+    volume: OccupancyVolume, votes: Mapping[tuple[int, int], Weights], settings: RegionSettings
 ) -> Regions:
     """Cut the floor into rooms.
 
@@ -51,26 +51,26 @@ def segment(
 
     Parameters
     ----------
-    space : Space
+    volume : OccupancyVolume
         As carved.
     votes : mapping of (row, column) to mapping of str to float
         Labels of the frames taken from a cell, weighed.
     settings : RegionSettings
-        What parts rooms.
+        What separates rooms.
     """
-    inside, wall, lintel = interior(space, settings)
+    inside, wall, lintel = interior(volume, settings)
     # Distance to walls, not to what was not seen: the edge of sight is no wall.
-    width = ndimage.distance_transform_edt(~(wall | lintel)) * space.cell_m
-    inside = bridged(inside, width, settings.gap_m, space.cell_m)
-    basins, peaks = flood(width * inside, space.cell_m)
+    width = ndimage.distance_transform_edt(~(wall | lintel)) * volume.cell_m
+    inside = bridged(inside, width, settings.gap_m, volume.cell_m)
+    basins, peaks = flood(width * inside, volume.cell_m)
     basins = spread(basins, inside)
-    merged = _merge(basins, peaks, width, votes, settings, space.cell_m)
-    reach = max(1, round(settings.reach_m / space.cell_m))
+    merged = _merge(basins, peaks, width, votes, settings, volume.cell_m)
+    reach = max(1, round(settings.reach_m / volume.cell_m))
     # Up to walls, and not beyond where there is none in sight.
     at_wall = ndimage.binary_dilation(wall, iterations=reach) & ~wall
     grown = spread(merged, ndimage.binary_dilation(inside, iterations=reach, mask=at_wall | inside))
-    kept = _without_small(_connected(grown), set(votes), settings, space.cell_m)
-    return Regions(kept, completed(kept, wall, settings, space.cell_m))
+    kept = _without_small(_connected(grown), set(votes), settings, volume.cell_m)
+    return Regions(kept, completed(kept, wall, settings, volume.cell_m))
 
 
 def _merge(
@@ -81,7 +81,7 @@ def _merge(
     settings: RegionSettings,
     cell_m: float,
 ) -> RegionImage:
-    """Join basins, the widest passage first, that no door and no narrowing parts."""
+    """Join basins, the widest passage first, that no door and no narrowing separates."""
     labels = {b: defaultdict[str, float](float) for b in peaks}
     for cell, counts in votes.items():
         if basins[cell]:
@@ -130,8 +130,8 @@ def _connected(regions: RegionImage) -> RegionImage:
     """Make a region of its own of every part of a region that hangs together."""
     result = np.zeros_like(regions)
     for region in (int(r) for r in np.unique(regions) if r):
-        parts, _ = ndimage.label(regions == region)
-        result[parts > 0] = parts[parts > 0] + result.max()
+        pieces, _ = ndimage.label(regions == region)
+        result[pieces > 0] = pieces[pieces > 0] + result.max()
     return result
 
 

@@ -11,10 +11,10 @@ class RegionSettings(Settings):
     """What is taken for a room of its own."""
 
     door_width_m: float = Field(
-        1.3, gt=0, le=5, description="a passage no wider parts rooms, whatever lies behind it"
+        1.3, gt=0, le=5, description="a passage no wider separates rooms, whatever lies behind it"
     )
     narrowing: float = Field(
-        0.8, gt=0, le=1, description="a passage parts rooms if it is narrower than this share"
+        0.8, gt=0, le=1, description="a passage separates rooms if it is narrower than this share"
     )
     narrowing_labelled: float = Field(
         0.95, gt=0, le=1, description="the same between places of different labels"

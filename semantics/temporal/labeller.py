@@ -53,7 +53,7 @@ class FrameLabel:
     Attributes
     ----------
     tracking : Tracking
-        The low layer's account of the same frame (it holds the features: do not keep it).
+        SLAM's account of the same frame (it holds the features: do not keep it).
     label, label_id : str, int
         What the frames around speak for; ``unknown`` and 0 where none could tell.
     score : float

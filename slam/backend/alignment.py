@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.datasets import se3
-from roomgraph.slam.backend.pose_graph import Link
+from roomgraph.slam.backend.pose_graph import Constraint
 from roomgraph.slam.features.matching import match
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.local_map import local_map
@@ -39,27 +39,27 @@ class Measured:
 
     Attributes
     ----------
-    link : Link
+    constraint : Constraint
         By matched features.
     inliers : int
         How many matches it rests on.
-    by_depth : Link or None
+    by_depth : Constraint or None
         By the surface that both see, where it agrees with the features; it knows nothing of the
         directions in which surface slides on surface.
     """
 
-    link: Link
+    constraint: Constraint
     inliers: int
-    by_depth: Link | None = None
+    by_depth: Constraint | None = None
 
     @property
-    def links(self) -> list[Link]:
+    def constraints(self) -> list[Constraint]:
         """All that was measured."""
-        return [self.link] if self.by_depth is None else [self.link, self.by_depth]
+        return [self.constraint] if self.by_depth is None else [self.constraint, self.by_depth]
 
 
-class Linker:
-    """Measures links from matched features, and refines them on common planes."""
+class KeyframeAligner:
+    """Measures constraints from matched features, and refines them on common planes."""
 
     def __init__(self, tracker: Tracker, icp: IcpSettings, noise: SensorNoise) -> None:
         self.tracker, self.icp, self.noise = tracker, icp, noise
@@ -68,7 +68,7 @@ class Linker:
     def from_tracking(
         self, view: View, keyframe: Keyframe, owners: dict[int, Keyframe], located: Located
     ) -> list[Measured]:
-        """Return a link to each keyframe of the local map that shares enough matches."""
+        """Return a constraint to each keyframe of the local map that shares enough matches."""
         measured = []
         for owner_id, count in located.matches_by_owner().items():
             if count < self.tracker.settings.min_inliers:
@@ -84,7 +84,7 @@ class Linker:
         return measured
 
     def between(self, view: View, keyframe: Keyframe, other: Keyframe) -> Measured | None:
-        """Return a loop link to a keyframe whose relative pose is not known, or None."""
+        """Return a loop constraint to a keyframe whose relative pose is not known, or None."""
         coarse = self._at_a_glance(view, other)
         if coarse is None:
             return None
@@ -122,11 +122,13 @@ class Linker:
     def _measure(
         self, keyframe: Keyframe, other: Keyframe, motion: RefinedMotion, is_loop: bool
     ) -> Measured:
-        """Make links of a motion by features and of the planes that both keyframes see."""
+        """Make constraints of a motion by features and of the planes that both keyframes see."""
         T_keyframe_other, information = motion.T_camera_reference, motion.information
-        link = Link(other.id, keyframe.id, se3.inverse(T_keyframe_other), information, is_loop)
+        constraint = Constraint(
+            other.id, keyframe.id, se3.inverse(T_keyframe_other), information, is_loop
+        )
         fine = self._align(keyframe, other, T_keyframe_other, information)
-        return Measured(link, motion.count, fine and replace(fine, is_loop=is_loop))
+        return Measured(constraint, motion.count, fine and replace(fine, is_loop=is_loop))
 
     def _align(
         self,
@@ -134,7 +136,7 @@ class Linker:
         other: Keyframe,
         T_keyframe_other: FloatArray,
         information: FloatArray,
-    ) -> Link | None:
+    ) -> Constraint | None:
         """Align what both keyframes see in depth; None where that contradicts the features."""
         if self.icp.on == "nothing":
             return None
@@ -160,4 +162,4 @@ class Linker:
         if step @ information @ step >= STEP_BOUND or not H.any():
             return None
         by: Literal["planes", "surface"] = "planes" if self.icp.on == "planes" else "surface"
-        return Link(other.id, keyframe.id, se3.inverse(T), H, is_loop=False, by=by)
+        return Constraint(other.id, keyframe.id, se3.inverse(T), H, is_loop=False, by=by)

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets import se3
 from roomgraph.slam.backend.mapper import Mapper, MapUpdate
-from roomgraph.slam.backend.pose_graph import Link
+from roomgraph.slam.backend.pose_graph import Constraint
 from roomgraph.slam.features.extraction import Features
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.estimate import Estimate
-from roomgraph.slam.frontend.local_map import LocalMap, like_minded, local_map
+from roomgraph.slam.frontend.local_map import LocalMap, covisible, local_map
 from roomgraph.slam.geometry.range_image import RangeImage
 from roomgraph.slam.keyframe import Keyframe
 from roomgraph.slam.tracking import LoopClosure
@@ -63,7 +63,7 @@ class Backend:
         T_world_keyframe as far as known now, also of keyframes in the making.
     keyframes : dict of int to Keyframe
         The finished ones.
-    links : tuple of Link
+    constraints : tuple of Constraint
         Between these.
     placed : set of int
         Keyframes of the sub-map that is the world, as far as known.
@@ -73,14 +73,14 @@ class Backend:
         self.mapper = mapper
         self.poses: dict[int, FloatArray] = {}
         self.keyframes: dict[int, Keyframe] = {}
-        self.links: tuple[Link, ...] = ()
+        self.constraints: tuple[Constraint, ...] = ()
         self.placed: set[int] = set()
         # One describes a keyframe while the other takes the one before into the map.
         self._describers = ThreadPoolExecutor(1, thread_name_prefix="describer")
         self._mappers = ThreadPoolExecutor(1, thread_name_prefix="mapper")
         self._pending: deque[_Pending] = deque()
         self._closures: list[LoopClosure] = []
-        # By keyframe; made of the links when it is asked for.
+        # By keyframe; made of the constraints when it is asked for.
         self._neighbours: defaultdict[int, set[int]] | None = None
         self._next = 0
 
@@ -109,7 +109,7 @@ class Backend:
         Goes by what is known of the map now: nothing is waited for but features.
         """
         linked = self._linked(reference)
-        chosen = like_minded(reference, linked, self.poses, self.mapper.settings.neighbours)
+        chosen = covisible(reference, linked, self.poses, self.mapper.settings.neighbours)
         return local_map([(self._described(k), self.poses[k]) for k in chosen])
 
     def thumbnail(self, keyframe: int) -> RangeImage:
@@ -142,9 +142,9 @@ class Backend:
                 way.add(keyframe)
         if self._neighbours is None:
             self._neighbours = defaultdict(set)
-            for link in self.links:
-                self._neighbours[link.first].add(link.second)
-                self._neighbours[link.second].add(link.first)
+            for constraint in self.constraints:
+                self._neighbours[constraint.first].add(constraint.second)
+                self._neighbours[constraint.second].add(constraint.first)
         return (way | self._neighbours[done]) - {reference}
 
     def _described(self, keyframe: int) -> _Pending | Keyframe:
@@ -175,7 +175,11 @@ class Backend:
             self._abandon()
             raise
         self._pending.popleft()
-        self.poses, self.links, self._neighbours = dict(update.poses), update.links, None
+        self.poses, self.constraints, self._neighbours = (
+            dict(update.poses),
+            update.constraints,
+            None,
+        )
         self.placed = set(update.placed)
         self.keyframes[update.keyframe.id] = update.keyframe
         self._closures.extend(update.closures)

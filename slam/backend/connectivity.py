@@ -23,7 +23,7 @@ class Connections:
         return keyframe in self._component
 
     def add(self, keyframe: int, is_root: bool) -> None:
-        """Add a keyframe without links."""
+        """Add a keyframe without constraints."""
         (self.roots if is_root else self.loose).add(keyframe)
         self._component[keyframe] = keyframe
         self._members[keyframe] = [keyframe]
@@ -37,12 +37,12 @@ class Connections:
         """Return the keyframes of the component with this root."""
         return list(self._members[root])
 
-    def linked(self, keyframe: int) -> list[int]:
+    def connected(self, keyframe: int) -> list[int]:
         """Return the keyframes that a keyframe is linked to."""
         return list(self._ways[keyframe])
 
-    def link(self, first: int, second: int, metres: float) -> list[int]:
-        """Add a link; return the keyframes of the younger component if it joins two held ones."""
+    def connect(self, first: int, second: int, metres: float) -> list[int]:
+        """Connect two; return the keyframes of the younger component if it joins two held ones."""
         self._ways[first].setdefault(second, []).append(metres)
         self._ways[second].setdefault(first, []).append(metres)
         ends = {self._component[first], self._component[second]}
@@ -59,8 +59,8 @@ class Connections:
             self.loose.difference_update(members)
         return []
 
-    def unlink(self, first: int, second: int, metres: float) -> bool:
-        """Take a link out; return whether a component falls in two, of which both are held."""
+    def disconnect(self, first: int, second: int, metres: float) -> bool:
+        """Disconnect two; return whether a component falls in two, of which both are held."""
         for end, other in ((first, second), (second, first)):
             self._ways[end][other].remove(metres)
             if not self._ways[end][other]:
@@ -77,7 +77,7 @@ class Connections:
         return True
 
     def ways_from(self, keyframe: int, limit: float, goal: int | None = None) -> dict[int, float]:
-        """Return the keyframes within `limit` metres along links, and how far (Dijkstra).
+        """Return the keyframes within `limit` metres along constraints, and how far (Dijkstra).
 
         With a goal, the search ends there.
         """

@@ -20,7 +20,7 @@ IntArray = NDArray[np.intp]
 Poses = Mapping[int, FloatArray]
 
 
-class WindowSettings(Settings):
+class LocalBundleAdjustmentSettings(Settings):
     """How many keyframes are adjusted together."""
 
     enabled: bool = Field(True, description="adjust keyframes and landmarks together (bundles)")
@@ -32,14 +32,14 @@ class WindowSettings(Settings):
     min_shared: int = Field(15, ge=6, description="landmarks shared with the others, at least")
 
 
-class Window:
+class LocalBundleAdjustment:
     """Keeps tracks of features over keyframes, and adjusts the latest keyframes on them.
 
     A landmark lies in the camera frame of the keyframe that first saw it, so it moves along when
     loops move that one.
     """
 
-    def __init__(self, settings: WindowSettings, noise: SensorNoise) -> None:
+    def __init__(self, settings: LocalBundleAdjustmentSettings, noise: SensorNoise) -> None:
         self.settings, self.noise = settings, noise
         # Of each keyframe: which landmark each of its features is, -1 for none.
         self._landmark: dict[int, IntArray] = {}

@@ -8,13 +8,13 @@ from pydantic import Field
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.settings import Settings
-from roomgraph.slam.backend.alignment import Linker, Measured
-from roomgraph.slam.backend.loop_verification import BeliefSettings, LoopBelief
+from roomgraph.slam.backend.alignment import KeyframeAligner, Measured
+from roomgraph.slam.backend.loop_verification import LoopVerificationSettings, LoopVerifier
 from roomgraph.slam.backend.pose_graph import PoseGraph
 from roomgraph.slam.features.view import View
 from roomgraph.slam.geometry.overlap import overlap
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.relocalisation.word_index import AppearanceIndex, AppearanceSettings
+from roomgraph.slam.relocalisation.word_index import WordIndex, WordIndexSettings
 
 FloatArray = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ class LoopSettings(Settings):
         0.0,
         ge=0,
         le=1000,
-        description="way along links in between, at least: nearer ones gain little",
+        description="way along constraints in between, at least: nearer ones gain little",
     )
     candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
     neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
@@ -43,18 +43,18 @@ class LoopSettings(Settings):
     min_correlation: float = Field(
         0.7, ge=-1, le=1, description="of the grey levels of the surface that both show, at least"
     )
-    belief: BeliefSettings = BeliefSettings()
+    verification: LoopVerificationSettings = LoopVerificationSettings()
 
 
 class LoopCloser:
     """Proposes loop candidates by appearance and by position, and verifies them by geometry."""
 
     def __init__(
-        self, settings: LoopSettings, appearance: AppearanceSettings, linker: Linker
+        self, settings: LoopSettings, appearance: WordIndexSettings, aligner: KeyframeAligner
     ) -> None:
-        self.settings, self.linker = settings, linker
-        self.index = AppearanceIndex(appearance)
-        self.belief = LoopBelief(settings.belief)
+        self.settings, self.aligner = settings, aligner
+        self.index = WordIndex(appearance)
+        self.verifier = LoopVerifier(settings.verification)
 
     def close(
         self,
@@ -64,7 +64,7 @@ class LoopCloser:
         graph: PoseGraph,
         known: set[int],
     ) -> list[Measured]:
-        """Return the loop links to take, now that a keyframe is in the graph, and index it.
+        """Return the loop constraints to take, now that a keyframe is in the graph, and index it.
 
         A loop that others confirm later is returned with these, so not all need be the new
         keyframe's.
@@ -80,12 +80,12 @@ class LoopCloser:
             tried = self._alike(keyframe, known)
             tried += [k for k in self._nearby(keyframe.id, graph, known) if k not in tried]
             for candidate in tried:
-                measured = self.linker.between(view, keyframe, keyframes[candidate])
+                measured = self.aligner.between(view, keyframe, keyframes[candidate])
                 if measured is not None and self.is_sound(
-                    measured.inliers, se3.inverse(measured.link.T_first_second), view,
+                    measured.inliers, se3.inverse(measured.constraint.T_first_second), view,
                     keyframes[candidate],
                 ):  # fmt: skip
-                    taken = self.belief.admit(measured, graph, keyframe.intrinsics.view_deg)
+                    taken = self.verifier.admit(measured, graph, keyframe.intrinsics.view_deg)
                     break
         self.index.add(keyframe.id, keyframe.words)
         return taken

@@ -9,12 +9,12 @@ from pydantic import Field
 from roomgraph.datasets import se3
 from roomgraph.datasets.settings import Settings
 from roomgraph.slam.backend.alignment import Measured
-from roomgraph.slam.backend.pose_graph import Link, PoseGraph
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph
 
 FloatArray = NDArray[np.float64]
 
 
-class BeliefSettings(Settings):
+class LoopVerificationSettings(Settings):
     """How much drift is likely, and how much possible."""
 
     slack_m: float = Field(
@@ -44,18 +44,18 @@ class BeliefSettings(Settings):
     patience: int = Field(30, ge=1, description="keyframes for which a loop waits to be confirmed")
 
 
-class LoopBelief:
+class LoopVerifier:
     """Lets likely loops pass, and holds possible ones until others agree with them.
 
     Look-alike places (the doors of a corridor, its two ends) match well but lie elsewhere: the
     correction that they ask for is larger than the way in between can have caused. A correction
-    within the likely drift along the shortest way of links passes at once; a larger one waits
+    within the likely drift along the shortest way of constraints passes at once; a larger one waits
     for loops of other keyframes that form a consistent cycle with it; one beyond the possible
     drift is dropped. A loop between two sub-maps always waits, and needs agreement over some way,
     or over a turn that shows other things.
     """
 
-    def __init__(self, settings: BeliefSettings) -> None:
+    def __init__(self, settings: LoopVerificationSettings) -> None:
         self.settings = settings
         self.held: list[Measured] = []
 
@@ -65,18 +65,23 @@ class LoopBelief:
         `view_deg` is the camera's field of view across: turned as far, it sees nothing of what it
         saw.
         """
-        link = measured.link
-        joins = graph.component_of(link.first) != graph.component_of(link.second)
+        constraint = measured.constraint
+        joins = graph.component_of(constraint.first) != graph.component_of(constraint.second)
         if not joins:
-            if self._can_be_drift(link, graph, 1.0):
+            if self._can_be_drift(constraint, graph, 1.0):
                 return [measured]
-            if not self._can_be_drift(link, graph, self.settings.doubt):
+            if not self._can_be_drift(constraint, graph, self.settings.doubt):
                 return []
-        oldest = link.second - self.settings.patience
-        self.held = [m for m in self.held if m.link.second >= oldest and _holds(m.link, graph)]
-        agreeing = [m for m in self.held if self._agree(m.link, link, graph)]
+        oldest = constraint.second - self.settings.patience
+        self.held = [
+            m for m in self.held if m.constraint.second >= oldest and _holds(m.constraint, graph)
+        ]
+        agreeing = [m for m in self.held if self._agree(m.constraint, constraint, graph)]
         self.held.append(measured)
-        if len({m.link.second for m in agreeing} - {link.second}) < self.settings.confirmations:
+        if (
+            len({m.constraint.second for m in agreeing} - {constraint.second})
+            < self.settings.confirmations
+        ):
             return []
         taken = [*agreeing, measured]
         if joins and not self._is_wide(taken, graph, view_deg):
@@ -91,10 +96,10 @@ class LoopBelief:
         one another: the camera must have moved on, or have turned to something else, and have met
         several keyframes.
         """
-        met = sorted({m.link.first for m in agreeing})
+        met = sorted({m.constraint.first for m in agreeing})
         if len(met) < 2:
             return False
-        seconds = np.array([graph[m.link.second] for m in agreeing])
+        seconds = np.array([graph[m.constraint.second] for m in agreeing])
         centres = seconds[:, :3, 3]
         if np.linalg.norm(centres[:, None] - centres, axis=-1).max() >= self.settings.join_way_m:
             return True
@@ -102,18 +107,20 @@ class LoopBelief:
         turn = min(_turn_deg(seconds), _turn_deg(np.array([graph[k] for k in met])))
         return turn >= max(self.settings.join_turn_deg, view_deg)
 
-    def _can_be_drift(self, link: Link, graph: PoseGraph, times: float) -> bool:
-        """Whether the shortest way of links is long enough to have drifted so far."""
-        believed = se3.inverse(graph[link.first]) @ graph[link.second]
-        metres, degrees = _size(se3.inverse(believed) @ link.T_first_second)
+    def _can_be_drift(self, constraint: Constraint, graph: PoseGraph, times: float) -> bool:
+        """Whether the shortest way of constraints is long enough to have drifted so far."""
+        believed = se3.inverse(graph[constraint.first]) @ graph[constraint.second]
+        metres, degrees = _size(se3.inverse(believed) @ constraint.T_first_second)
         s = self.settings
         way = max(
             (metres / times - s.slack_m) / s.drift_share,
             (degrees / times - s.slack_deg) / s.drift_deg_per_m,
         )
-        return way <= 0 or not np.isfinite(graph.linked_way(link.first, link.second, way))
+        return way <= 0 or not np.isfinite(
+            graph.path_length(constraint.first, constraint.second, way)
+        )
 
-    def _agree(self, one: Link, other: Link, graph: PoseGraph) -> bool:
+    def _agree(self, one: Constraint, other: Constraint, graph: PoseGraph) -> bool:
         """Whether two loops ask for the same: the cycle through both must close."""
         for end, end_too in ((one.first, other.first), (one.second, other.second)):
             if graph.component_of(end) != graph.component_of(end_too):
@@ -142,5 +149,5 @@ def _turn_deg(T_world_camera: FloatArray) -> float:
     return float(np.degrees(np.arccos(np.clip(axes @ axes.T, -1.0, 1.0).min())))
 
 
-def _holds(link: Link, graph: PoseGraph) -> bool:
-    return link.first in graph and link.second in graph
+def _holds(constraint: Constraint, graph: PoseGraph) -> bool:
+    return constraint.first in graph and constraint.second in graph

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.slam.backend.alignment import Linker
-from roomgraph.slam.backend.local_bundle_adjustment import Window
+from roomgraph.slam.backend.alignment import KeyframeAligner
+from roomgraph.slam.backend.local_bundle_adjustment import LocalBundleAdjustment
 from roomgraph.slam.backend.loop_closing import LoopCloser
-from roomgraph.slam.backend.pose_graph import Link, PoseGraph
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.estimate import Estimate
 from roomgraph.slam.frontend.keyframe_selection import KeyframeSettings
-from roomgraph.slam.frontend.local_map import LocalMap, like_minded, local_map
+from roomgraph.slam.frontend.local_map import LocalMap, covisible, local_map
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.planes import PlaneSettings, extract_planes
 from roomgraph.slam.geometry.range_image import range_image_of
@@ -38,8 +38,8 @@ class MapUpdate:
         T_world_keyframe of all, as estimated now.
     closures : tuple of LoopClosure
         Loops that it closed.
-    links : tuple of Link
-        All links that hold.
+    constraints : tuple of Constraint
+        All constraints that hold.
     placed : frozenset of int
         Keyframes of the sub-map that is the world.
     """
@@ -47,7 +47,7 @@ class MapUpdate:
     keyframe: Keyframe
     poses: dict[int, FloatArray]
     closures: tuple[LoopClosure, ...]
-    links: tuple[Link, ...]
+    constraints: tuple[Constraint, ...]
     placed: frozenset[int]
 
 
@@ -60,15 +60,15 @@ class Mapper:
         planes: PlaneSettings,
         cloud: MapSettings,
         noise: SensorNoise,
-        linker: Linker,
+        aligner: KeyframeAligner,
         loops: LoopCloser,
-        window: Window,
+        local_bundle: LocalBundleAdjustment,
         graph: PoseGraph,
         seed: int = 0,
     ) -> None:
         self.settings, self.planes, self.cloud, self.noise = settings, planes, cloud, noise
-        self.linker, self.loops, self.graph, self.seed = linker, loops, graph, seed
-        self.window = window
+        self.aligner, self.loops, self.graph, self.seed = aligner, loops, graph, seed
+        self.local_bundle = local_bundle
         self.keyframes: dict[int, Keyframe] = {}
         self.closures: list[LoopClosure] = []
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
@@ -94,29 +94,29 @@ class Mapper:
     def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
         """Take in the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
         self.graph.add_keyframe(keyframe.id, T_world_camera, starts_component=True)
-        self.window.add(keyframe)
+        self.local_bundle.add(keyframe)
         return self._finish(view, keyframe)
 
     def insert(self, keyframe: Keyframe, view: View, estimate: Estimate) -> MapUpdate:
-        """Take in a keyframe whose pose is known; link it to those around."""
+        """Take in a keyframe whose pose is known; connect it to those around."""
         T_world_camera = self.graph[estimate.reference] @ estimate.anchor.T_keyframe_camera
         self.graph.add_keyframe(keyframe.id, T_world_camera)
-        self.window.add(keyframe)
-        for link in self._links(view, keyframe, estimate):
-            self._add(link)
+        self.local_bundle.add(keyframe)
+        for constraint in self._constraints(view, keyframe, estimate):
+            self._add(constraint)
         self.keyframes[keyframe.id] = keyframe
         self._adjust(keyframe.id)
         return self._finish(view, keyframe)
 
     def _adjust(self, newest: int) -> None:
-        """Adjust the latest keyframes on their landmarks, and take their links from that."""
-        if not self.window.settings.enabled:
+        """Adjust the latest keyframes on their landmarks, and take their constraints from that."""
+        if not self.local_bundle.settings.enabled:
             return
         self.graph.optimise()
         T_world = self.graph.poses
-        latest = [k for k in sorted(T_world)[-self.window.settings.size :]]
+        latest = [k for k in sorted(T_world)[-self.local_bundle.settings.size :]]
         around = set(latest).union(*(self._neighbours[k] for k in latest))
-        adjusted = self.window.adjust(newest, around, self.keyframes, T_world)
+        adjusted = self.local_bundle.adjust(newest, around, self.keyframes, T_world)
         if adjusted:
             self.graph.measure_again(adjusted, since=min(set(adjusted) & set(latest)))
 
@@ -127,62 +127,66 @@ class Mapper:
             *(self._neighbours[k] for k in self._neighbours[keyframe.id])
         )
         measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
-        for link in (link for loop in measured for link in loop.links):
-            self._add(link)
+        for constraint in (constraint for loop in measured for constraint in loop.constraints):
+            self._add(constraint)
         closures = tuple(
-            LoopClosure(loop.link.second, loop.link.first, loop.inliers) for loop in measured
+            LoopClosure(loop.constraint.second, loop.constraint.first, loop.inliers)
+            for loop in measured
         )
         self.closures.extend(closures)
-        for link in self.graph.optimise():
-            self._forget(link)
+        for constraint in self.graph.optimise():
+            self._forget(constraint)
         closures = tuple(closure for closure in closures if closure in self.closures)
         return MapUpdate(
-            keyframe, self.graph.poses, closures, tuple(self.graph.links),
+            keyframe, self.graph.poses, closures, tuple(self.graph.constraints),
             frozenset(self.graph.members_of(self.graph.world)),
         )  # fmt: skip
 
     def around(self, reference: int) -> LocalMap:
         """Return the points of a keyframe and of those linked to it that look the same way."""
         T_world = self.graph.poses
-        chosen = like_minded(
+        chosen = covisible(
             reference, self._neighbours[reference], T_world, self.settings.neighbours
         )
         return local_map([(self.keyframes[k], T_world[k]) for k in chosen])
 
-    def _links(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Link]:
+    def _constraints(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Constraint]:
         """Measure the motion to each keyframe around; add how it was tracked unless by these."""
-        located = self.linker.tracker.guided(
+        located = self.aligner.tracker.guided(
             view, self.around(estimate.reference), estimate.T_camera_reference, scale=0.25
         )
-        links = []
+        constraints = []
         if located is not None:
-            measured = self.linker.from_tracking(view, keyframe, self.keyframes, located)
+            measured = self.aligner.from_tracking(view, keyframe, self.keyframes, located)
             owners = located.local_map.owners[located.matches[:, 0]]
             for owner in np.unique(owners).tolist():
                 chosen = located.matches[owners == owner]
                 rows = np.column_stack([located.local_map.rows[chosen[:, 0]], chosen[:, 1]])
-                self.window.match(keyframe, self.keyframes[owner], rows)
-            links = [link for m in measured for link in m.links]
-        if not links:
+                self.local_bundle.match(keyframe, self.keyframes[owner], rows)
+            constraints = [constraint for m in measured for constraint in m.constraints]
+        if not constraints:
             T = estimate.anchor.T_keyframe_camera
-            links.append(
-                Link(
+            constraints.append(
+                Constraint(
                     estimate.reference, keyframe.id, T, estimate.information, is_loop=False,
                     by="depth",
                 )
             )  # fmt: skip
-        return links
+        return constraints
 
-    def _add(self, link: Link) -> None:
-        self.graph.add_link(link)
-        self._neighbours[link.first].add(link.second)
-        self._neighbours[link.second].add(link.first)
+    def _add(self, constraint: Constraint) -> None:
+        self.graph.add_constraint(constraint)
+        self._neighbours[constraint.first].add(constraint.second)
+        self._neighbours[constraint.second].add(constraint.first)
 
-    def _forget(self, rejected: Link) -> None:
+    def _forget(self, rejected: Constraint) -> None:
         """Drop a loop that turned out wrong."""
         ends = rejected.second, rejected.first
         self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
         between = {rejected.first, rejected.second}
-        if not any({link.first, link.second} == between for link in self.graph.links):
+        if not any(
+            {constraint.first, constraint.second} == between
+            for constraint in self.graph.constraints
+        ):
             self._neighbours[rejected.first].discard(rejected.second)
             self._neighbours[rejected.second].discard(rejected.first)

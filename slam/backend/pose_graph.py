@@ -1,4 +1,4 @@
-"""The pose graph over keyframes, in one part or several that no link joins yet."""
+"""The pose graph over keyframes, in one part or several that no constraint joins yet."""
 
 from __future__ import annotations
 
@@ -14,37 +14,43 @@ from numpy.typing import NDArray
 from roomgraph.datasets import se3
 from roomgraph.datasets.files import replacing
 from roomgraph.slam.backend.connectivity import Connections
-from roomgraph.slam.backend.solver import Link, PoseGraphSettings, Solver, deviations, factor_of
+from roomgraph.slam.backend.solver import (
+    Constraint,
+    PoseGraphSettings,
+    Solver,
+    deviations,
+    factor_of,
+)
 from roomgraph.slam.errors import SlamError
 
-__all__ = ["Link", "PoseGraph", "PoseGraphSettings"]
+__all__ = ["Constraint", "PoseGraph", "PoseGraphSettings"]
 
 FloatArray = NDArray[np.float64]
 
-# Between, only poses near new links are read back: the others move less than iSAM2's threshold.
+# Between, only poses near new constraints are read back: others move less than iSAM2's threshold.
 REFRESH_EVERY = 16
 
 
 class PoseGraph:
-    """Keyframe poses that agree best with all links between them.
+    """Keyframe poses that agree best with all constraints between them.
 
     Keyframe ids count up, and serve as keys. The graph may consist of several components
-    (sub-maps): the first keyframe of each is held at the pose it is added with. The first link
-    between two components joins them: the younger moves as a whole, and hangs on its links alone
-    from then on. So the world's frame stays that of the oldest keyframe.
+    (sub-maps): the first keyframe of each is held at the pose it is added with. The first
+    constraint between two components joins them: the younger moves as a whole, and hangs on its
+    constraints alone from then on. So the world's frame stays that of the oldest keyframe.
 
     Attributes
     ----------
-    links : list of Link
-        All links that hold.
-    rejected : list of Link
+    constraints : list of Constraint
+        All constraints that hold.
+    rejected : list of Constraint
         Loops that were taken out again because the others contradicted them.
     """
 
     def __init__(self, settings: PoseGraphSettings) -> None:
         self.settings = settings
-        self.links: list[Link] = []
-        self.rejected: list[Link] = []
+        self.constraints: list[Constraint] = []
+        self.rejected: list[Constraint] = []
         self._ids: list[int] = []
         self._T: FloatArray = np.empty((0, 4, 4))
         self._connections = Connections()
@@ -75,7 +81,7 @@ class PoseGraph:
 
     @property
     def components(self) -> int:
-        """How many sub-maps there are that no link joins."""
+        """How many sub-maps there are that no constraint joins."""
         return len(self._connections.roots)
 
     def component_of(self, keyframe: int) -> int:
@@ -98,12 +104,12 @@ class PoseGraph:
         """Return the keyframes of the sub-map with this oldest keyframe."""
         return self._connections.members_of(component)
 
-    def linked_way(self, first: int, second: int, limit: float) -> float:
-        """Return the length of the shortest way along links, infinite if beyond `limit` metres."""
+    def path_length(self, first: int, second: int, limit: float) -> float:
+        """Return the shortest way along constraints, metres; infinite if beyond `limit` metres."""
         return self._connections.ways_from(first, limit, second).get(second, float("inf"))
 
     def around(self, keyframe: int, metres: float) -> set[int]:
-        """Return the keyframes no further than so many metres along links."""
+        """Return the keyframes no further than so many metres along constraints."""
         return set(self._connections.ways_from(keyframe, metres))
 
     def add_keyframe(
@@ -135,7 +141,7 @@ class PoseGraph:
         if starts:
             self._solver.add_prior(keyframe, T_world_keyframe)
 
-    def add_link(self, link: Link) -> None:
+    def add_constraint(self, constraint: Constraint) -> None:
         """Add a measurement between two keyframes; between two sub-maps it joins them.
 
         Raises
@@ -143,23 +149,23 @@ class PoseGraph:
         SlamError
             One of the keyframes is not in the graph.
         """
-        rows = [self._row(keyframe) for keyframe in (link.first, link.second)]
-        moving = self._connections.link(link.first, link.second, _length(link))
+        rows = [self._row(keyframe) for keyframe in (constraint.first, constraint.second)]
+        moving = self._connections.connect(constraint.first, constraint.second, _length(constraint))
         if moving:
-            self._move(moving, link)
-        elif link.is_loop:
+            self._move(moving, constraint)
+        elif constraint.is_loop:
             first, second = self._T[rows][:, None]
-            far = deviations([link], first, second, self.settings)[0]
+            far = deviations([constraint], first, second, self.settings)[0]
             self._is_bent |= bool(far > self.settings.kernel_width)
-        self.links.append(link)
-        self._numbers.append(self._solver.add_link(link))
-        for keyframe in (link.first, link.second):
-            self._touched.update((keyframe, *self._connections.linked(keyframe)))
+        self.constraints.append(constraint)
+        self._numbers.append(self._solver.add_constraint(constraint))
+        for keyframe in (constraint.first, constraint.second):
+            self._touched.update((keyframe, *self._connections.connected(keyframe)))
 
     def measure_again(self, T_world: Mapping[int, FloatArray], since: int) -> None:
         """Take the motion between keyframes from poses that were adjusted together.
 
-        Only links by features that close no loop are changed.
+        Only constraints by features that close no loop are changed.
 
         Parameters
         ----------
@@ -168,41 +174,41 @@ class PoseGraph:
         since : int
             No keyframe before it was moved.
         """
-        for place in reversed(range(len(self.links))):
-            link = self.links[place]
-            if link.is_loop or link.by != "features":
+        for place in reversed(range(len(self.constraints))):
+            constraint = self.constraints[place]
+            if constraint.is_loop or constraint.by != "features":
                 continue
-            if link.second < since:
+            if constraint.second < since:
                 break
-            if link.first in T_world and link.second in T_world:
-                T = se3.inverse(T_world[link.first]) @ T_world[link.second]
-                self.links[place] = replace(link, T_first_second=T)
+            if constraint.first in T_world and constraint.second in T_world:
+                T = se3.inverse(T_world[constraint.first]) @ T_world[constraint.second]
+                self.constraints[place] = replace(constraint, T_first_second=T)
                 self._solver.remove(self._numbers[place])
-                self._numbers[place] = self._solver.add_link(self.links[place])
+                self._numbers[place] = self._solver.add_constraint(self.constraints[place])
 
-    def optimise(self) -> list[Link]:
-        """Take the new keyframes and links in and update all poses.
+    def optimise(self) -> list[Constraint]:
+        """Take the new keyframes and constraints in and update all poses.
 
         Returns
         -------
-        list of Link
+        list of Constraint
             Loops taken out because the others contradict them.
 
         Raises
         ------
         SlamError
-            A keyframe hangs on no link, so its pose is undetermined.
+            A keyframe hangs on no constraint, so its pose is undetermined.
         """
         if self._connections.loose:
             raise SlamError(
                 "pose graph cannot be solved", where=f"keyframe {min(self._connections.loose)}",
-                expected="a link to every keyframe",
+                expected="a constraint to every keyframe",
             )  # fmt: skip
         if not (self._is_stale or self._is_bent):
             self._update()
             return []
         self._settle()
-        rejected: list[Link] = []
+        rejected: list[Constraint] = []
         while worst := self._contradicted():
             rejected += worst
             self._take_out(worst)
@@ -211,7 +217,7 @@ class PoseGraph:
         return rejected
 
     def write_g2o(self, path: Path, keyframes: Container[int] | None = None) -> None:
-        """Write poses and links, without kernels, for other tools (``VERTEX_SE3:QUAT``).
+        """Write poses and constraints, without kernels, for other tools (``VERTEX_SE3:QUAT``).
 
         Of all keyframes, or of those given.
         """
@@ -219,9 +225,11 @@ class PoseGraph:
         for key, T in zip(self._ids, self._T, strict=True):
             if keyframes is None or key in keyframes:
                 values.insert(key, gtsam.Pose3(T))
-        for link in self.links:
-            if keyframes is None or (link.first in keyframes and link.second in keyframes):
-                factors.add(factor_of(link, self.settings, robust=False))
+        for constraint in self.constraints:
+            if keyframes is None or (
+                constraint.first in keyframes and constraint.second in keyframes
+            ):
+                factors.add(factor_of(constraint, self.settings, robust=False))
         with replacing(path) as temporary:
             gtsam.writeG2o(factors, values, str(temporary))
 
@@ -230,11 +238,11 @@ class PoseGraph:
             raise SlamError("no such keyframe in the pose graph", where=f"keyframe {keyframe}")
         return bisect_left(self._ids, keyframe)
 
-    def _move(self, moving: list[int], link: Link) -> None:
-        """Move keyframes as a whole to where a link from elsewhere puts them."""
-        T_world_second = self[link.first] @ link.T_first_second
-        moved = T_world_second @ se3.inverse(self[link.second])
-        moved = se3.inverse(moved) if link.first in moving else moved
+    def _move(self, moving: list[int], constraint: Constraint) -> None:
+        """Move keyframes as a whole to where a constraint from elsewhere puts them."""
+        T_world_second = self[constraint.first] @ constraint.T_first_second
+        moved = T_world_second @ se3.inverse(self[constraint.second])
+        moved = se3.inverse(moved) if constraint.first in moving else moved
         rows = [self._row(keyframe) for keyframe in moving]
         self._T[rows] = moved @ self._T[rows]
         self._is_stale = True
@@ -258,33 +266,39 @@ class PoseGraph:
                 self._solver.add_pose(keyframe, T)
                 if keyframe in self._connections.roots:
                     self._solver.add_prior(keyframe, T)
-            self._numbers = [self._solver.add_link(link) for link in self.links]
+            self._numbers = [
+                self._solver.add_constraint(constraint) for constraint in self.constraints
+            ]
         self._solver.update(thoroughly=True)
         self._T = self._solver.poses()
         self._is_stale = self._is_bent = False
         self._touched.clear()
 
-    def _contradicted(self) -> list[Link]:
+    def _contradicted(self) -> list[Constraint]:
         """Return the loops that stay far from the optimum; only the worst, which bend others."""
-        loops = [link for link in self.links if link.is_loop]
+        loops = [constraint for constraint in self.constraints if constraint.is_loop]
         if not loops:
             return []
         first, second = (
             self._T[[self._row(end) for end in ends]]
-            for ends in zip(*((link.first, link.second) for link in loops), strict=True)
+            for ends in zip(
+                *((constraint.first, constraint.second) for constraint in loops), strict=True
+            )
         )
         far = deviations(loops, first, second, self.settings)
         limit = max(self.settings.reject_width, far.max() / 2)
         return [loops[i] for i in np.flatnonzero(far > limit)]
 
-    def _take_out(self, links: list[Link]) -> None:
-        gone = {id(link) for link in links}
-        places = [i for i, link in enumerate(self.links) if id(link) in gone]
+    def _take_out(self, constraints: list[Constraint]) -> None:
+        gone = {id(constraint) for constraint in constraints}
+        places = [i for i, constraint in enumerate(self.constraints) if id(constraint) in gone]
         for i in reversed(places):
-            link = self.links.pop(i)
+            constraint = self.constraints.pop(i)
             self._solver.remove(self._numbers.pop(i))
-            self._is_stale |= self._connections.unlink(link.first, link.second, _length(link))
+            self._is_stale |= self._connections.disconnect(
+                constraint.first, constraint.second, _length(constraint)
+            )
 
 
-def _length(link: Link) -> float:
-    return float(np.linalg.norm(link.T_first_second[:3, 3]))
+def _length(constraint: Constraint) -> float:
+    return float(np.linalg.norm(constraint.T_first_second[:3, 3]))

@@ -1,4 +1,4 @@
-"""gtsam's iSAM2 behind a small interface: poses, priors and links in, the best poses out."""
+"""gtsam's iSAM2 behind a small interface: poses, priors and constraints in, the best poses out."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ PRIOR_SIGMA = 1e-6
 
 
 class PoseGraphSettings(Settings):
-    """How links between keyframes are weighed, and which are thrown out again."""
+    """How constraints between keyframes are weighed, and which are thrown out again."""
 
     kernel: Literal["huber", "cauchy", "none"] = Field(
-        "huber", description="robust kernel on every link"
+        "huber", description="robust kernel on every constraint"
     )
     kernel_width: float = Field(3.0, gt=0, le=100, description="in standard deviations")
     sigma_rotation_rad: float = Field(
-        0.001, gt=0, le=1, description="error of a link beyond what its matches say, radians"
+        0.001, gt=0, le=1, description="error of a constraint beyond what its matches say, radians"
     )
     sigma_translation_m: float = Field(
-        0.002, gt=0, le=1, description="error of a link beyond what its matches say, metres"
+        0.002, gt=0, le=1, description="error of a constraint beyond what its matches say, metres"
     )
     reject_width: float = Field(
         10.0,
@@ -48,7 +48,7 @@ class PoseGraphSettings(Settings):
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class Constraint:
     """A measured motion between two keyframes.
 
     Attributes
@@ -73,38 +73,38 @@ class Link:
     by: Literal["features", "planes", "surface", "depth"] = "features"
 
 
-def covariance_of(link: Link, settings: PoseGraphSettings) -> FloatArray:
-    """Return a link's covariance (6, 6), floor included, in its second's frame."""
+def covariance_of(constraint: Constraint, settings: PoseGraphSettings) -> FloatArray:
+    """Return a constraint's covariance (6, 6), floor included, in its second's frame."""
     floor = np.repeat([settings.sigma_rotation_rad, settings.sigma_translation_m], 3)
-    covariance = np.linalg.inv(link.information + 1e-6 * np.eye(6)) + np.diag(floor**2)
+    covariance = np.linalg.inv(constraint.information + 1e-6 * np.eye(6)) + np.diag(floor**2)
     return np.asarray((covariance + covariance.T) / 2)
 
 
-def factor_of(link: Link, settings: PoseGraphSettings, robust: bool) -> Any:
-    """Return a link as gtsam's factor."""
-    noise = gtsam.noiseModel.Gaussian.Covariance(covariance_of(link, settings))
+def factor_of(constraint: Constraint, settings: PoseGraphSettings, robust: bool) -> Any:
+    """Return a constraint as gtsam's factor."""
+    noise = gtsam.noiseModel.Gaussian.Covariance(covariance_of(constraint, settings))
     if robust and settings.kernel != "none":
         kernels = gtsam.noiseModel.mEstimator
         kernel = {"huber": kernels.Huber, "cauchy": kernels.Cauchy}[settings.kernel]
         noise = gtsam.noiseModel.Robust.Create(kernel.Create(settings.kernel_width), noise)
     return gtsam.BetweenFactorPose3(
-        link.first, link.second, gtsam.Pose3(link.T_first_second), noise
+        constraint.first, constraint.second, gtsam.Pose3(constraint.T_first_second), noise
     )
 
 
 def deviations(
-    links: Sequence[Link],
+    constraints: Sequence[Constraint],
     T_world_first: FloatArray,
     T_world_second: FloatArray,
     settings: PoseGraphSettings,
 ) -> FloatArray:
-    """Return how far poses (N, 4, 4) are from N links, in standard deviations (Mahalanobis)."""
-    measured = np.array([link.T_first_second for link in links])
+    """Return how far poses (N, 4, 4) are from N constraints, in standard deviations."""
+    measured = np.array([constraint.T_first_second for constraint in constraints])
     error = se3.inverse(measured) @ se3.inverse(T_world_first) @ T_world_second
     steps = np.concatenate(
         [Rotation.from_matrix(error[:, :3, :3]).as_rotvec(), error[:, :3, 3]], axis=1
     )
-    covariances = np.array([covariance_of(link, settings) for link in links])
+    covariances = np.array([covariance_of(constraint, settings) for constraint in constraints])
     weighted = np.linalg.solve(covariances, steps[:, :, None])[:, :, 0]
     return np.asarray(np.sqrt(np.einsum("nd,nd->n", steps, weighted)))
 
@@ -137,9 +137,9 @@ class Solver:
         noise = gtsam.noiseModel.Isotropic.Sigma(6, PRIOR_SIGMA)
         return self._add(gtsam.PriorFactorPose3(key, gtsam.Pose3(T), noise))
 
-    def add_link(self, link: Link) -> int:
+    def add_constraint(self, constraint: Constraint) -> int:
         """Add a measured motion; return a number to remove it by."""
-        return self._add(factor_of(link, self.settings, robust=True))
+        return self._add(factor_of(constraint, self.settings, robust=True))
 
     def remove(self, number: int) -> None:
         """Take a factor of an earlier update out."""
@@ -162,7 +162,7 @@ class Solver:
                 self._iterate()
         except RuntimeError as error:
             raise SlamError(
-                "pose graph cannot be solved", expected="a link to every keyframe",
+                "pose graph cannot be solved", expected="a constraint to every keyframe",
                 got=str(error).splitlines()[0],
             ) from error  # fmt: skip
         self._index.update(zip(self._waiting, result.getNewFactorsIndices(), strict=True))

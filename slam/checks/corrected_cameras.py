@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from roomgraph.datasets.camera import Camera, DepthCamera
-from roomgraph.slam.checks.finding import Remedy
+from roomgraph.slam.checks.finding import CameraCorrection
 from roomgraph.slam.checks.registration import Alignment
 
 
-def registered(camera: Camera, alignment: Alignment) -> Remedy | None:
+def registered(camera: Camera, alignment: Alignment) -> CameraCorrection | None:
     """Return what lays depth on colour by an alignment of their images.
 
     As if a camera of another focal length had taken it from the same point: what that is off by
@@ -28,13 +28,13 @@ def registered(camera: Camera, alignment: Alignment) -> Remedy | None:
         colour, fx=colour.fx / scale, fy=colour.fy / scale, cx=float(centre[0]),
         cy=float(centre[1]), distortion=(),
     )  # fmt: skip
-    return Remedy(
+    return CameraCorrection(
         replace(camera, depth=DepthCamera(own, np.eye(4)), origin=_mended(camera)),
         "it is laid there; aligning depth to colour when recording would be better still",
     )
 
 
-def refocused(camera: Camera, fx: float, fy: float) -> Remedy:
+def refocused(camera: Camera, fx: float, fy: float) -> CameraCorrection:
     """Return what gives a camera other focal lengths; depth stays on the pixels where it lies."""
     colour, depth = camera.intrinsics, camera.depth
     if depth is not None and np.array_equal(depth.T_colour_depth, np.eye(4)):
@@ -44,7 +44,9 @@ def refocused(camera: Camera, fx: float, fy: float) -> Remedy:
     other = replace(
         camera, intrinsics=replace(colour, fx=fx, fy=fy), depth=depth, origin=_mended(camera)
     )
-    return Remedy(other, f"fx {fx:.0f}, fy {fy:.0f} are taken; calibrate the camera to be sure")
+    return CameraCorrection(
+        other, f"fx {fx:.0f}, fy {fy:.0f} are taken; calibrate the camera to be sure"
+    )
 
 
 def _mended(camera: Camera) -> str:

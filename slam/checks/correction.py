@@ -33,14 +33,14 @@ def examine(sequence: Sequence, settings: CheckSettings) -> Examination:
     """
     told: list[Finding] = []
     findings = check_sequence(sequence, settings)
-    while settings.mend:
-        curable = next((f for f in findings if f.remedy is not None), None)
-        if curable is None or curable.remedy is None:
+    while settings.correct_camera:
+        curable = next((f for f in findings if f.correction is not None), None)
+        if curable is None or curable.correction is None:
             break
-        mended = sequence.with_camera(curable.remedy.camera)
+        mended = sequence.with_camera(curable.correction.camera)
         after = check_sequence(mended, settings)
         if {f.kind for f in after} & {f.kind for f in (*told, curable)}:
             break
-        told.append(replace(curable, suggestion=curable.remedy.words, remedy=None))
+        told.append(replace(curable, suggestion=curable.correction.words, correction=None))
         sequence, findings = mended, after
     return Examination(sequence, (*told, *findings))

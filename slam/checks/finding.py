@@ -11,7 +11,7 @@ Kind = Literal["depth scale", "intrinsics", "registration", "time offset"]
 
 
 @dataclass(frozen=True, slots=True)
-class Remedy:
+class CameraCorrection:
     """A camera under which a contradiction should be gone, and words for what it changes."""
 
     camera: Camera
@@ -30,14 +30,14 @@ class Finding:
         What was seen, with its figures.
     suggestion : str
         What to do about it.
-    remedy : Remedy or None
+    correction : CameraCorrection or None
         What would mend it, where the data says so.
     """
 
     kind: Kind
     observed: str
     suggestion: str
-    remedy: Remedy | None = None
+    correction: CameraCorrection | None = None
 
     def __str__(self) -> str:
         return f"{self.observed}; {self.suggestion}"

@@ -40,7 +40,7 @@ class CheckSettings(Settings):
     """What is looked at before a run to see that the data can be right."""
 
     enabled: bool = Field(True, description="look at the data before a run and warn")
-    mend: bool = Field(
+    correct_camera: bool = Field(
         True,
         description="mend the camera where the data says how: lay depth on colour where it lies "
         "beside it, take focal lengths that points move rigidly under",

@@ -1,4 +1,4 @@
-"""A frame as the low layer sees it: features with their depth."""
+"""A frame as SLAM sees it: features with their depth."""
 
 from __future__ import annotations
 

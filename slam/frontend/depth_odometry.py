@@ -20,7 +20,7 @@ from roomgraph.slam.geometry.planes import Plane, PlaneSettings, extract_planes
 FloatArray = NDArray[np.float64]
 
 
-class TexturelessSettings(Settings):
+class DepthOdometrySettings(Settings):
     """When and how depth alone carries the camera."""
 
     enabled: bool = Field(True, description="fall back on depth alone where features fail")
@@ -70,7 +70,7 @@ class DepthOdometry:
 
     def __init__(
         self,
-        settings: TexturelessSettings,
+        settings: DepthOdometrySettings,
         planes: PlaneSettings,
         icp: IcpSettings,
         noise: SensorNoise,
@@ -173,7 +173,7 @@ class DepthOdometry:
         T_last_camera, information = align_surface(
             cloud, self._last, T_last_camera, held, self.noise, self.settings.fit_m
         )
-        # From the last camera's frame to this one's, where links are weighed.
+        # From the last camera's frame to this one's, where constraints are weighed.
         T_camera_last = se3.inverse(T_last_camera)
         A = se3.adjoint(T_last_camera)
         # In units of the guess's own errors: how well the direction is held that is held least.

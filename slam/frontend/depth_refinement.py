@@ -18,7 +18,7 @@ from roomgraph.slam.geometry.noise import SensorNoise
 FloatArray = NDArray[np.float64]
 
 
-class LeaningSettings(Settings):
+class DepthRefinementSettings(Settings):
     """When a pose by features is improved on depth."""
 
     enabled: bool = Field(True, description="improve poses from little texture on the surfaces")
@@ -30,7 +30,7 @@ class LeaningSettings(Settings):
     iterations: int = Field(4, ge=1, le=100, description="at most")
 
 
-class SurfaceLeaning:
+class DepthRefiner:
     """Aligns a view's depth with that of the keyframe that it is measured against.
 
     A few dozen features, all of them on a poster or along an edge, hold a pose badly; the walls
@@ -38,7 +38,7 @@ class SurfaceLeaning:
     features allow: else these are believed.
     """
 
-    def __init__(self, settings: LeaningSettings, noise: SensorNoise) -> None:
+    def __init__(self, settings: DepthRefinementSettings, noise: SensorNoise) -> None:
         self.settings, self.noise = settings, noise
         self._keyframe: int | None = None
         self._frame: Frame | None = None
@@ -48,7 +48,7 @@ class SurfaceLeaning:
         """Take a new keyframe's depth as what later views are aligned with."""
         self._keyframe, self._frame, self._surface = keyframe, frame, None
 
-    def lean(self, frame: Frame, estimate: Estimate) -> Estimate:
+    def refine(self, frame: Frame, estimate: Estimate) -> Estimate:
         """Return an estimate improved on the surfaces, or as it was."""
         s = self.settings
         if not s.enabled or estimate.inliers >= s.inliers or estimate.reference != self._keyframe:
@@ -64,13 +64,13 @@ class SurfaceLeaning:
         T_reference_camera, found = align_surface(
             cloud, self._surface, se3.inverse(T), known, self.noise, s.max_surface_m, s.iterations
         )
-        leant = se3.inverse(T_reference_camera)
-        step = se3.logarithm(leant @ se3.inverse(T))
+        refined = se3.inverse(T_reference_camera)
+        step = se3.logarithm(refined @ se3.inverse(T))
         if not found.any() or step @ estimate.information @ step >= STEP_BOUND:
             return estimate
         back = se3.adjoint(T_reference_camera)
         return replace(
-            estimate, T_camera_reference=leant,
+            estimate, T_camera_reference=refined,
             information=np.asarray(estimate.information + back.T @ found @ back),
         )  # fmt: skip
 

@@ -90,7 +90,7 @@ def local_map(keyframes: Sequence[tuple[Described, FloatArray]]) -> LocalMap:
     )  # fmt: skip
 
 
-def like_minded(
+def covisible(
     reference: int, linked: Iterable[int], T_world: Mapping[int, FloatArray], count: int
 ) -> list[int]:
     """Return a keyframe and, of those linked to it, the `count` that look most the same way."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from roomgraph.datasets import se3
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.depth_odometry import DepthOdometry
-from roomgraph.slam.frontend.depth_refinement import SurfaceLeaning
+from roomgraph.slam.frontend.depth_refinement import DepthRefiner
 from roomgraph.slam.frontend.estimate import Estimate, inverted
 from roomgraph.slam.frontend.local_map import LocalMap
 from roomgraph.slam.frontend.motion_model import MotionModel
@@ -48,7 +48,7 @@ class Localiser:
         The three means, in the order in which they are tried.
     motion : MotionModel
         What to expect, and what to hold on to where a view leaves something open.
-    leaning : SurfaceLeaning
+    refiner : DepthRefiner
         What improves poses that few features hold.
     known : KnownMap
         The keyframes to go by.
@@ -62,12 +62,12 @@ class Localiser:
         tracker: Tracker,
         depth: DepthOdometry,
         motion: MotionModel,
-        leaning: SurfaceLeaning,
+        refiner: DepthRefiner,
         known: KnownMap,
         min_correlation: float,
     ) -> None:
         self.flow, self.tracker, self.depth = flow, tracker, depth
-        self.motion, self.leaning = motion, leaning
+        self.motion, self.refiner = motion, refiner
         self._map, self._min_correlation = known, min_correlation
         self._template: Template | None = None
         self._template_covariance: FloatArray = np.zeros((6, 6))
@@ -86,7 +86,7 @@ class Localiser:
         if seen is None and view.has_depth:
             seen = self._by_features(view) or self._by_flow_from_last(view)
         if seen is not None:
-            return self._held(view, self.leaning.lean(view.frame, seen))
+            return self._held(view, self.refiner.refine(view.frame, seen))
         return self._by_depth(view) if view.has_depth else None
 
     def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
@@ -107,7 +107,7 @@ class Localiser:
         if estimate is None or estimate.method != "depth":
             self.depth.forget()
         if estimate is None:
-            self.leaning.rest_on(anchor.keyframe, view.frame)
+            self.refiner.rest_on(anchor.keyframe, view.frame)
         self._last, self._last_view = anchor, view
 
     def follow(self, view: View, anchor: Anchor) -> Template:

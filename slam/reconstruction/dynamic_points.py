@@ -25,7 +25,7 @@ AROUND = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Sightings:
+class VisibilityCounts:
     """How often keyframes looked at each of N voxels.
 
     Attributes
@@ -43,13 +43,13 @@ class Sightings:
         return self.through > self.on
 
 
-def look_again(
+def count_visibility(
     voxels: Voxels,
     voxel_m: float,
     images: Iterable[tuple[int, RangeImage]],
     T_world_keyframe: Mapping[int, FloatArray],
     noise: SensorNoise,
-) -> Sightings:
+) -> VisibilityCounts:
     """Project voxels into all keyframes and compare their depth with what is read there.
 
     A voxel is seen through where all nine readings around it lie behind it, by more than three
@@ -57,7 +57,7 @@ def look_again(
     two readings are thus left alone. Nothing is said of voxels hidden behind a surface, or
     without readings around.
     """
-    sightings = Sightings(*np.zeros((2, len(voxels.keys)), np.int32))
+    visibility = VisibilityCounts(*np.zeros((2, len(voxels.keys)), np.int32))
     blocks = _blocks(voxels, voxel_m)
     for keyframe, image in images:
         T_camera_world = se3.inverse(T_world_keyframe[keyframe]).astype(np.float32)
@@ -65,9 +65,9 @@ def look_again(
         chosen = blocks.in_view(T_camera_world, image, far)
         _compare(
             voxels.points, chosen, T_camera_world, image.intrinsics.parameters.astype(np.float32),
-            near, far, through, sightings.on, sightings.through,
+            near, far, through, visibility.on, visibility.through,
         )  # fmt: skip
-    return sightings
+    return visibility
 
 
 def _bounds(

@@ -1,4 +1,4 @@
-"""What the finished map says of the building: the ground, free space and the occupancy grid."""
+"""What the finished map says of the building: its floor, free space and occupancy grid."""
 
 from __future__ import annotations
 
@@ -11,22 +11,30 @@ from numpy.typing import NDArray
 from roomgraph.datasets import se3
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.floor_plane import Ground, GroundSettings, find_ground
+from roomgraph.slam.reconstruction.floor_plane import (
+    FloorPlane,
+    FloorPlaneSettings,
+    find_floor_plane,
+)
 from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid, occupancy
-from roomgraph.slam.reconstruction.occupancy_volume import Space, SpaceSettings, carve
+from roomgraph.slam.reconstruction.occupancy_volume import (
+    OccupancyVolume,
+    OccupancyVolumeSettings,
+    carve,
+)
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Survey:
-    """Ground, carved space and occupancy grid of a map, all in the map frame.
+class FloorAnalysis:
+    """Floor plane, carved space and occupancy grid of a map, all in the map frame.
 
     Attributes
     ----------
-    ground : Ground
+    floor_plane : FloorPlane
         Where the map frame lies.
-    space : Space
+    volume : OccupancyVolume
         Hits and passes by column.
     grid : OccupancyGrid
         The same, flattened for robots.
@@ -38,21 +46,21 @@ class Survey:
         What had to be guessed or left out.
     """
 
-    ground: Ground
-    space: Space
+    floor_plane: FloorPlane
+    volume: OccupancyVolume
     grid: OccupancyGrid
     keyframes: tuple[int, ...]
     path_map: NDArray[np.float64]
     warnings: tuple[str, ...]
 
 
-def survey(
+def analyse_floor(
     keyframes: dict[int, Keyframe],
     T_world_keyframe: Mapping[int, FloatArray],
-    ground_settings: GroundSettings,
-    space_settings: SpaceSettings,
+    floor_plane_settings: FloorPlaneSettings,
+    volume_settings: OccupancyVolumeSettings,
     noise: SensorNoise,
-) -> Survey | None:
+) -> FloorAnalysis | None:
     """Look at a map as it is now; None if there is nothing in it.
 
     Parameters
@@ -64,16 +72,16 @@ def survey(
     kept = [keyframes[key] for key in sorted(T) if key in keyframes]
     if not kept:
         return None
-    ground = find_ground(kept, T, ground_settings)
-    space = carve(kept, T, ground, space_settings, noise)
+    floor_plane = find_floor_plane(kept, T, floor_plane_settings)
+    volume = carve(kept, T, floor_plane, volume_settings, noise)
     centres = np.array([T[k.id][:3, 3] for k in kept])
-    path = se3.transform(ground.T_map_world, centres)
-    grid = occupancy(space, ground.T_map_world, space_settings, path)
+    path = se3.transform(floor_plane.T_map_world, centres)
+    grid = occupancy(volume, floor_plane.T_map_world, volume_settings, path)
     left_out = len(keyframes) - len(kept)
-    warnings = ground.warnings
+    warnings = floor_plane.warnings
     if left_out:
         warnings += (
             f"{left_out} of {len(keyframes)} keyframes lie in sub-maps that never met the "
             "map: it is without them",
         )
-    return Survey(ground, space, grid, tuple(k.id for k in kept), path, warnings)
+    return FloorAnalysis(floor_plane, volume, grid, tuple(k.id for k in kept), path, warnings)

@@ -22,7 +22,7 @@ _LARGEST = 20
 _PROMINENCE = 3.0
 
 
-class GroundSettings(Settings):
+class FloorPlaneSettings(Settings):
     """How the vertical and the floor are found."""
 
     max_tilt_deg: float = Field(
@@ -43,7 +43,7 @@ class GroundSettings(Settings):
 
 
 @dataclass(frozen=True, slots=True)
-class Ground:
+class FloorPlane:
     """The map frame: z up, the floor at 0, x along the walls; its origin below the first camera.
 
     Attributes
@@ -83,11 +83,11 @@ class _Surfaces:
     weights: FloatArray
 
 
-def find_ground(
+def find_floor_plane(
     keyframes: Iterable[Keyframe],
     T_world_keyframe: Mapping[int, FloatArray],
-    settings: GroundSettings | None = None,
-) -> Ground:
+    settings: FloorPlaneSettings | None = None,
+) -> FloorPlane:
     """Find up, the floor and the walls' direction from the keyframes' planes.
 
     Up is the direction, within a camera's usual tilt, that level planes are normal to and walls
@@ -100,13 +100,13 @@ def find_ground(
         With their planes and clouds.
     T_world_keyframe : mapping of int to (4, 4) float64
         Their poses.
-    settings : GroundSettings, optional
+    settings : FloorPlaneSettings, optional
         Tolerances.
     """
-    settings = settings or GroundSettings()
+    settings = settings or FloorPlaneSettings()
     kept = [k for k in keyframes if k.id in T_world_keyframe]
     if not kept:
-        return Ground(se3.pose(R=[[0, 0, 1], [-1, 0, 0], [0, -1, 0]]), False, False, False)
+        return FloorPlane(se3.pose(R=[[0, 0, 1], [-1, 0, 0], [0, -1, 0]]), False, False, False)
     T = np.array([T_world_keyframe[k.id] for k in kept])
     held = _unit(-T[:, :3, 1].mean(axis=0))
     surfaces = _surfaces(kept, T_world_keyframe)
@@ -120,7 +120,7 @@ def find_ground(
     along = _longest(along, up, T[:, :3, 3])
     R = np.array([along, np.cross(up, along), up])
     t = np.array([0.0, 0.0, -height])
-    return Ground(se3.pose(R, t), level is not None, floor is not None, walls is not None)
+    return FloorPlane(se3.pose(R, t), level is not None, floor is not None, walls is not None)
 
 
 def _surfaces(keyframes: list[Keyframe], T_world_keyframe: Mapping[int, FloatArray]) -> _Surfaces:
@@ -137,7 +137,9 @@ def _surfaces(keyframes: list[Keyframe], T_world_keyframe: Mapping[int, FloatArr
     )
 
 
-def _vertical(surfaces: _Surfaces, held: FloatArray, settings: GroundSettings) -> FloatArray | None:
+def _vertical(
+    surfaces: _Surfaces, held: FloatArray, settings: FloorPlaneSettings
+) -> FloatArray | None:
     """Return up (3,), unit length; None if no plane is level within the camera's tilt."""
     directions = np.concatenate([surfaces.normals, _plumb_lines(surfaces)])
     directions = np.where(directions @ held < 0, -1.0, 1.0)[:, None] * directions
@@ -175,7 +177,7 @@ def _floor(
     positions: FloatArray,
     seen: FloatArray,
     up: FloatArray,
-    settings: GroundSettings,
+    settings: FloorPlaneSettings,
 ) -> float | None:
     """Return the floor's height along `up` from heights seen (N,), metres; None without one."""
     top = float(np.median(positions @ up)) - settings.min_drop_m
@@ -223,7 +225,7 @@ def _lowest(seen: FloatArray) -> float:
 
 
 def _wall_direction(
-    surfaces: _Surfaces, up: FloatArray, settings: GroundSettings
+    surfaces: _Surfaces, up: FloatArray, settings: FloorPlaneSettings
 ) -> FloatArray | None:
     """Return the direction (3,) of most walls, taken modulo a quarter turn."""
     is_wall = np.abs(surfaces.normals @ up) < _sine(settings)
@@ -271,5 +273,5 @@ def _quarter(angles: FloatArray) -> FloatArray:
     return np.asarray((angles + np.pi / 4) % (np.pi / 2) - np.pi / 4)
 
 
-def _sine(settings: GroundSettings) -> float:
+def _sine(settings: FloorPlaneSettings) -> float:
     return float(np.sin(np.radians(settings.tolerance_deg)))

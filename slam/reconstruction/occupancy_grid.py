@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from roomgraph.slam.reconstruction.occupancy_volume import Space, SpaceSettings
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume, OccupancyVolumeSettings
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 # Log-odds of a cell by keyframe: OctoMap's defaults for a hit and a miss (probabilities 0.7, 0.4).
@@ -48,9 +48,9 @@ class OccupancyGrid:
 
 
 def occupancy(
-    space: Space,
+    volume: OccupancyVolume,
     T_map_world: NDArray[np.float64],
-    settings: SpaceSettings,
+    settings: OccupancyVolumeSettings,
     path_map: NDArray[np.float64],
 ) -> OccupancyGrid:
     """Flatten carved space into an occupancy grid.
@@ -61,46 +61,46 @@ def occupancy(
 
     Parameters
     ----------
-    space : Space
+    volume : OccupancyVolume
         As carved.
     T_map_world : (4, 4) float64
-        Of the ground that it was carved over.
-    settings : SpaceSettings
+        Of the floor plane that it was carved over.
+    settings : OccupancyVolumeSettings
         Heights of what is in the way.
     path_map : (N, >= 2) float64
         Camera centres in the map frame, metres.
     """
-    band = space.layers(settings.min_height_m, settings.max_height_m)
-    hits = space.hits[band].astype(np.float32)
-    passes = space.passes[band].astype(np.float32)
+    band = volume.layers(settings.min_height_m, settings.max_height_m)
+    hits = volume.hits[band].astype(np.float32)
+    passes = volume.passes[band].astype(np.float32)
     solid = (hits >= _MIN_HITS) & (_HIT * hits + _MISS * passes > 0)
     evidence = np.where(solid, hits, 0).sum(axis=0)
     occupied = thinned(evidence)
-    low = space.passes[space.layers(settings.min_height_m, _LOW_M)]
-    seen = low.any(axis=0) | (space.hits[0] > 0) | (space.passes[0] > 0)
-    seen |= _walked(space, path_map)
+    low = volume.passes[volume.layers(settings.min_height_m, _LOW_M)]
+    seen = low.any(axis=0) | (volume.hits[0] > 0) | (volume.passes[0] > 0)
+    seen |= _walked(volume, path_map)
     cells = np.full(seen.shape, UNKNOWN, dtype=np.int8)
     cells[seen & (evidence == 0)] = FREE
     cells[occupied] = OCCUPIED
-    return OccupancyGrid(cells, space.cell_m, space.origin_xy, T_map_world)
+    return OccupancyGrid(cells, volume.cell_m, volume.origin_xy, T_map_world)
 
 
-def _walked(space: Space, path_map: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _walked(volume: OccupancyVolume, path_map: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return the cells (R, C) that the camera's bearer took up on the way from point to point."""
-    walked = np.zeros(space.hits.shape[1:], dtype=bool)
+    walked = np.zeros(volume.hits.shape[1:], dtype=bool)
     if not len(path_map):
         return walked
     steps = np.linalg.norm(np.diff(path_map[:, :2], axis=0), axis=1)
     # Over a longer step tracking was lost, or the path starts anew.
     steps[steps > _LONGEST_STEP_M] = 0.0
-    counts = np.ceil(steps / space.cell_m).astype(int)
+    counts = np.ceil(steps / volume.cell_m).astype(int)
     way = [path_map[-1:, :2]]
     for start, end, count in zip(path_map[:-1, :2], path_map[1:, :2], counts, strict=True):
         share = np.arange(max(1, count))[:, None] / max(1, count)
         way.append(start + share * (end - start) * (count > 0))
-    row, column = space.cells_of(np.concatenate(way)).T
+    row, column = volume.cells_of(np.concatenate(way)).T
     walked[row, column] = True
-    reach = ndimage.distance_transform_edt(~walked) * space.cell_m
+    reach = ndimage.distance_transform_edt(~walked) * volume.cell_m
     return np.asarray(reach <= _BODY_M)
 
 

@@ -14,12 +14,12 @@ from roomgraph.datasets.settings import Settings
 from roomgraph.slam.geometry.compiled import compiled
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.floor_plane import Ground
+from roomgraph.slam.reconstruction.floor_plane import FloorPlane
 
 FloatArray = NDArray[np.float64]
 
 
-class SpaceSettings(Settings):
+class OccupancyVolumeSettings(Settings):
     """How finely space is carved, and what is in a robot's way."""
 
     cell_m: float = Field(0.05, ge=0.01, le=1, description="side of a cell")
@@ -34,11 +34,11 @@ class SpaceSettings(Settings):
 
 
 @dataclass(frozen=True, slots=True)
-class Space:
+class OccupancyVolume:
     """Columns of cells over the floor, counted by keyframe.
 
-    Layer 0 is the floor, the last one what lies above `SpaceSettings.ceiling_m`. Row and column of
-    a cell follow the map frame's y and x.
+    Layer 0 is the floor, the last one what lies above
+    `OccupancyVolumeSettings.ceiling_m`. Row and column of a cell follow the map frame's y and x.
 
     Attributes
     ----------
@@ -75,10 +75,10 @@ class Space:
 def carve(
     keyframes: Iterable[Keyframe],
     T_world_keyframe: Mapping[int, FloatArray],
-    ground: Ground,
-    settings: SpaceSettings,
+    floor_plane: FloorPlane,
+    settings: OccupancyVolumeSettings,
     noise: SensorNoise,
-) -> Space:
+) -> OccupancyVolume:
     """Follow every keyframe's rays through a grid in the map frame.
 
     In a keyframe a cell with a surface is hit, not passed, as in OctoMap (Hornung et al., 2013,
@@ -93,37 +93,37 @@ def carve(
         With their images.
     T_world_keyframe : mapping of int to (4, 4) float64
         Their poses.
-    ground : Ground
+    floor_plane : FloorPlane
         The map frame.
-    settings : SpaceSettings
+    settings : OccupancyVolumeSettings
         Size of the cells.
     noise : SensorNoise
         Of the depth.
     """
     kept = [k for k in keyframes if k.id in T_world_keyframe]
-    T_map_keyframe = {k.id: ground.T_map_world @ T_world_keyframe[k.id] for k in kept}
-    space = _empty(kept, T_map_keyframe, settings)
-    low, high = space.heights_m[:2]
-    sides = np.array([space.cell_m, space.cell_m, high - low])
-    corner = np.array([*space.origin_xy, low])
+    T_map_keyframe = {k.id: floor_plane.T_map_world @ T_world_keyframe[k.id] for k in kept}
+    volume = _empty(kept, T_map_keyframe, settings)
+    low, high = volume.heights_m[:2]
+    sides = np.array([volume.cell_m, volume.cell_m, high - low])
+    corner = np.array([*volume.origin_xy, low])
     # What lies further below the floor than the floor is thick is not there.
     lowest = 1.0 - 2.0 * low / (high - low)
     # Of each cell: twice the number of the keyframe that last saw it, and 1 if that hit it.
-    last = np.zeros(space.hits.shape, dtype=np.int32)
+    last = np.zeros(volume.hits.shape, dtype=np.int32)
     for number, keyframe in enumerate(kept, 1):
         T, cloud = T_map_keyframe[keyframe.id], keyframe.cloud
         A, start = T[:3, :3] / sides[:, None], (T[:3, 3] - corner) / sides
         start[2] += 1.0  # Below the second layer lies the first.
         _hit(
-            A, start, T[2, :3].copy(), cloud, keyframe.image.normals(noise), space.cell_m / 2,
-            noise.coefficients, lowest, 2 * number, last, space.hits,
+            A, start, T[2, :3].copy(), cloud, keyframe.image.normals(noise), volume.cell_m / 2,
+            noise.coefficients, lowest, 2 * number, last, volume.hits,
         )  # fmt: skip
         rays = np.ascontiguousarray(cloud[keyframe.id % settings.ray_every :: settings.ray_every])
         _pass(
-            A, start, rays, space.cell_m, noise.coefficients, lowest, 2 * number, last,
-            space.passes,
+            A, start, rays, volume.cell_m, noise.coefficients, lowest, 2 * number, last,
+            volume.passes,
         )  # fmt: skip
-    return space
+    return volume
 
 
 @compiled
@@ -238,8 +238,10 @@ def _cell(
 
 
 def _empty(
-    keyframes: list[Keyframe], T_map_keyframe: Mapping[int, FloatArray], settings: SpaceSettings
-) -> Space:
+    keyframes: list[Keyframe],
+    T_map_keyframe: Mapping[int, FloatArray],
+    settings: OccupancyVolumeSettings,
+) -> OccupancyVolume:
     """Return a grid without counts around all that was seen and all cameras."""
     corners = [
         np.concatenate([se3.transform(T_map_keyframe[k.id], k.cloud[::16]),
@@ -256,7 +258,9 @@ def _empty(
     height = (high_m - low_m) / count
     heights = np.arange(low_m, settings.ceiling_m + height, height)
     shape = (len(heights) + 1, rows, columns)
-    return Space(np.zeros(shape, np.uint16), np.zeros(shape, np.uint16), low, cell, heights)
+    return OccupancyVolume(
+        np.zeros(shape, np.uint16), np.zeros(shape, np.uint16), low, cell, heights
+    )
 
 
 def _bounds(points: list[FloatArray]) -> tuple[FloatArray, FloatArray]:

@@ -16,7 +16,7 @@ from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.range_image import RangeImage
 from roomgraph.slam.geometry.voxel_hash import voxels_of
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.dynamic_points import look_again
+from roomgraph.slam.reconstruction.dynamic_points import count_visibility
 from roomgraph.slam.reconstruction.fusion import Fused, Fusion, Voxels
 
 FloatArray = NDArray[np.float64]
@@ -28,7 +28,9 @@ class MapSettings(Settings):
     voxel_m: float = Field(0.02, gt=0, le=1, description="one point a cube of this size")
     stride: int = Field(4, ge=1, le=64, description="every n-th pixel of a keyframe is mapped")
     max_depth_m: float = Field(4.0, gt=0, le=65, description="readings beyond are not mapped")
-    carve: bool = Field(True, description="drop points that keyframes see through: moving things")
+    remove_dynamic: bool = Field(
+        True, description="drop points that keyframes see through: moving things"
+    )
     sketch_voxels: float = Field(
         2.5, ge=1, le=50, description="size of a voxel of the map on the way, in those of the map"
     )
@@ -101,13 +103,13 @@ def build_map(
     """Fuse keyframes at their present poses, and drop what others of them see through.
 
     Nothing is kept between calls, so after a loop closure the map is simply built again; memory
-    follows the space seen (see `slam.fusion`), not the number of keyframes.
+    follows the space seen (see `fusion`), not the number of keyframes.
     """
     images = [(keyframe.id, keyframe.image) for keyframe in keyframes]
     voxels = _fused(images, T_world_keyframe, settings.voxel_m, noise)
     points = _as_map(voxels)
-    if settings.carve and len(points):
-        seen = look_again(voxels, settings.voxel_m, images, T_world_keyframe, noise)
+    if settings.remove_dynamic and len(points):
+        seen = count_visibility(voxels, settings.voxel_m, images, T_world_keyframe, noise)
         points = points.chosen(~seen.is_empty)
     return points
 
@@ -120,7 +122,7 @@ def without_moved(
 ) -> list[tuple[int, RangeImage]]:
     """Return keyframes' images without the readings that `build_map` would drop."""
     voxels = _fused(images, T_world_keyframe, voxel_m, noise)
-    seen = look_again(voxels, voxel_m, images, T_world_keyframe, noise)
+    seen = count_visibility(voxels, voxel_m, images, T_world_keyframe, noise)
     dropped = voxels.keys[seen.is_empty]
     left = []
     for keyframe, image in images:

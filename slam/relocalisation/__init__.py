@@ -1,1 +1,1 @@
-"""Keyframes found again: by words, from memory and from disk."""
+"""Keyframes found again: by words, in memory and from disk."""

@@ -26,7 +26,7 @@ MAX_FEATURES = 500
 
 
 @dataclass(frozen=True, slots=True)
-class RememberedKeyframe:
+class StoredKeyframe:
     """What is needed to recognise a keyframe and to measure a pose against it.
 
     Attributes
@@ -51,10 +51,10 @@ class RememberedKeyframe:
 
 
 @dataclass(frozen=True, slots=True)
-class KeyframeMemory:
+class KeyframeDatabase:
     """The keyframes of a run with the (undistorted) camera that saw them."""
 
-    keyframes: tuple[RememberedKeyframe, ...]
+    keyframes: tuple[StoredKeyframe, ...]
     intrinsics: Intrinsics
 
     @property
@@ -63,9 +63,9 @@ class KeyframeMemory:
         return np.array([k.T_world_keyframe[:3, 3] for k in self.keyframes]).reshape(-1, 3)
 
 
-def remember(
+def database_of(
     keyframes: Iterable[Keyframe], T_world_keyframe: Mapping[int, FloatArray]
-) -> KeyframeMemory | None:
+) -> KeyframeDatabase | None:
     """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none."""
     every = list(keyframes)
     kept = []
@@ -75,35 +75,35 @@ def remember(
         features = Features(found.pixels[rows], found.descriptors[rows], found.sizes[rows])
         T = np.array(T_world_keyframe[keyframe.id])
         kept.append(
-            RememberedKeyframe(keyframe.id, keyframe.stamp_s, T, features, keyframe.points[rows])
+            StoredKeyframe(keyframe.id, keyframe.stamp_s, T, features, keyframe.points[rows])
         )
-    return KeyframeMemory(tuple(kept), every[0].intrinsics) if kept else None
+    return KeyframeDatabase(tuple(kept), every[0].intrinsics) if kept else None
 
 
-def joined(keyframes: Iterable[RememberedKeyframe]) -> LocalMap:
+def joined(keyframes: Iterable[StoredKeyframe]) -> LocalMap:
     """Join keyframes into one map in the camera frame of the first."""
     return local_map([(k, k.T_world_keyframe) for k in keyframes])
 
 
-def write_memory(path: Path, memory: KeyframeMemory) -> None:
+def write_keyframe_database(path: Path, database: KeyframeDatabase) -> None:
     """Write ``keyframes.npz``: descriptors as bytes, positions as float32, all without pickle.
 
     SIFT's descriptors are whole numbers up to 255 by construction, RootSIFT's are rounded to
     them: at a norm of 512, by less than a thousandth of it.
     """
-    camera, found = memory.intrinsics, [k.features for k in memory.keyframes]
+    camera, found = database.intrinsics, [k.features for k in database.keyframes]
     values: dict[str, NDArray[Any]] = {
         "schema": np.array(SCHEMA),
         "size": np.array([camera.width, camera.height]),
         "camera": np.array([camera.fx, camera.fy, camera.cx, camera.cy]),
-        "ids": np.array([k.id for k in memory.keyframes]),
-        "stamps_s": np.array([k.stamp_s for k in memory.keyframes]),
-        "T_world_keyframe": np.array([k.T_world_keyframe for k in memory.keyframes]),
+        "ids": np.array([k.id for k in database.keyframes]),
+        "stamps_s": np.array([k.stamp_s for k in database.keyframes]),
+        "T_world_keyframe": np.array([k.T_world_keyframe for k in database.keyframes]),
         "counts": np.array([len(features) for features in found]),
         "is_binary": np.array(found[0].descriptors.dtype == np.uint8),
         "pixels": np.concatenate([f.pixels for f in found]).astype(np.float32),
         "sizes": np.concatenate([f.sizes for f in found]).astype(np.float16),
-        "points": np.concatenate([k.points for k in memory.keyframes]).astype(np.float32),
+        "points": np.concatenate([k.points for k in database.keyframes]).astype(np.float32),
         "descriptors": np.concatenate([_as_bytes(f.descriptors) for f in found]),
     }
     # Compressed it would take a quarter less room, and thirty times as long.
@@ -111,13 +111,13 @@ def write_memory(path: Path, memory: KeyframeMemory) -> None:
         np.savez(file, allow_pickle=False, **values)
 
 
-def read_memory(path: Path) -> KeyframeMemory:
-    """Read what `write_memory` wrote.
+def read_keyframe_database(path: Path) -> KeyframeDatabase:
+    """Read what `write_keyframe_database` wrote.
 
     Raises
     ------
     SlamError
-        The file is missing or is not such a memory.
+        The file is missing or is not such a database.
     """
     try:
         with np.load(path, allow_pickle=False) as file:
@@ -127,7 +127,7 @@ def read_memory(path: Path) -> KeyframeMemory:
         width, height = (int(v) for v in values["size"])
         fx, fy, cx, cy = (float(v) for v in values["camera"])
         intrinsics = Intrinsics(width, height, fx, fy, cx, cy)
-        return KeyframeMemory(tuple(_keyframes(values)), intrinsics)
+        return KeyframeDatabase(tuple(_keyframes(values)), intrinsics)
     except FileNotFoundError as error:
         raise SlamError(
             "no keyframes to recognise places by", where=path, expected="a finished run",
@@ -141,7 +141,7 @@ def read_memory(path: Path) -> KeyframeMemory:
         ) from error  # fmt: skip
 
 
-def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
+def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[StoredKeyframe]:
     descriptors = values["descriptors"]
     if not values["is_binary"]:
         descriptors = descriptors.astype(np.float32)
@@ -155,7 +155,7 @@ def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[RememberedKeyframe]:
         rows = slice(int(end - count), int(end))
         features = Features(pixels[rows], descriptors[rows], sizes[rows])
         kept.append(
-            RememberedKeyframe(
+            StoredKeyframe(
                 int(values["ids"][i]), float(values["stamps_s"][i]),
                 values["T_world_keyframe"][i], features, points[rows],
             )

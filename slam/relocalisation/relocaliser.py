@@ -11,14 +11,14 @@ from pydantic import Field
 from roomgraph.datasets import se3
 from roomgraph.datasets.settings import Settings
 from roomgraph.slam.features.view import View
-from roomgraph.slam.frontend.local_map import like_minded
+from roomgraph.slam.frontend.local_map import covisible
 from roomgraph.slam.frontend.tracker import Located, Tracker
 from roomgraph.slam.relocalisation.keyframe_database import (
-    KeyframeMemory,
-    RememberedKeyframe,
+    KeyframeDatabase,
+    StoredKeyframe,
     joined,
 )
-from roomgraph.slam.relocalisation.word_index import AppearanceIndex, AppearanceSettings
+from roomgraph.slam.relocalisation.word_index import WordIndex, WordIndexSettings
 
 FloatArray = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ class Resemblance:
     `T_world_camera` is that pose (4, 4), or None where no pose was tried or found.
     """
 
-    keyframe: RememberedKeyframe
+    keyframe: StoredKeyframe
     likeness: float
     inliers: int = 0
     T_world_camera: FloatArray | None = None
@@ -71,21 +71,21 @@ class Relocaliser:
     """Recognises keyframes by their words, and measures the pose by features.
 
     The words are made anew from the remembered descriptors, in the order of the keyframes: the
-    same memory gives the same answers. Depth helps where the image has it: without, the pose
+    same database gives the same answers. Depth helps where the image has it: without, the pose
     comes from the keyframes' points and the image's pixels alone (PnP).
     """
 
     def __init__(
         self,
-        memory: KeyframeMemory,
+        database: KeyframeDatabase,
         tracker: Tracker,
         settings: RelocaliserSettings,
-        appearance: AppearanceSettings,
+        appearance: WordIndexSettings,
     ) -> None:
-        self.memory, self.tracker, self.settings = memory, tracker, settings
-        self._by_id = {keyframe.id: keyframe for keyframe in memory.keyframes}
-        self._index = AppearanceIndex(appearance)
-        for keyframe in memory.keyframes:
+        self.database, self.tracker, self.settings = database, tracker, settings
+        self._by_id = {keyframe.id: keyframe for keyframe in database.keyframes}
+        self._index = WordIndex(appearance)
+        for keyframe in database.keyframes:
             words = self._index.words_of(keyframe.features.descriptors)
             self._index.add(keyframe.id, words)
 
@@ -112,17 +112,15 @@ class Relocaliser:
         found.sort(key=lambda r: (-r.inliers, -r.likeness, r.keyframe.id))
         return Relocation(tuple(found))
 
-    def _around(self, keyframe: RememberedKeyframe) -> list[RememberedKeyframe]:
+    def _around(self, keyframe: StoredKeyframe) -> list[StoredKeyframe]:
         """Return a keyframe and those nearest to it that look the same way."""
-        T_world = {k.id: k.T_world_keyframe for k in self.memory.keyframes}
+        T_world = {k.id: k.T_world_keyframe for k in self.database.keyframes}
         others = T_world.keys() - {keyframe.id}
-        chosen = like_minded(keyframe.id, others, T_world, self.settings.neighbours)
+        chosen = covisible(keyframe.id, others, T_world, self.settings.neighbours)
         return [self._by_id[k] for k in chosen]
 
 
-def _measured(
-    keyframe: RememberedKeyframe, likeness: float, located: Located | None
-) -> Resemblance:
+def _measured(keyframe: StoredKeyframe, likeness: float, located: Located | None) -> Resemblance:
     if located is None:
         return Resemblance(keyframe, likeness)
     T = keyframe.T_world_keyframe @ se3.inverse(located.motion.T_camera_reference)

@@ -14,7 +14,7 @@ from roomgraph.datasets.settings import Settings
 from roomgraph.slam.features.matching import squared_distances
 
 
-class AppearanceSettings(Settings):
+class WordIndexSettings(Settings):
     """How words are made of descriptors."""
 
     max_words: int = Field(4096, ge=16, description="words at most")
@@ -24,7 +24,7 @@ class AppearanceSettings(Settings):
     features: int = Field(300, ge=20, description="features of a keyframe that are indexed")
 
 
-class AppearanceIndex:
+class WordIndex:
     """Ranks past keyframes by shared words, rare words counting more (tf-idf).
 
     The vocabulary needs no training: a descriptor far from every word becomes a word itself
@@ -34,7 +34,7 @@ class AppearanceIndex:
     One thread may make words while another adds keyframes and ranks them.
     """
 
-    def __init__(self, settings: AppearanceSettings) -> None:
+    def __init__(self, settings: WordIndexSettings) -> None:
         self.settings = settings
         self._words: NDArray[Any] = np.empty((0, 0))
         # By word: the keyframes that hold it, and its weight in each.

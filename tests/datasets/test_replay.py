@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from roomgraph.datasets.replay import Laps
+from roomgraph.datasets.replay import PingPongReplay
 
 
 def test_frames_run_back_and_forth_while_time_goes_on(rendered_sequence):
-    laps = Laps(rendered_sequence, 2)
+    laps = PingPongReplay(rendered_sequence, 2)
     last = len(rendered_sequence) - 1
     assert len(laps) == 2 * 2 * last
     steps = np.diff(laps.stamps_s)
@@ -18,7 +18,7 @@ def test_frames_run_back_and_forth_while_time_goes_on(rendered_sequence):
 
 
 def test_true_poses_are_repeated_with_the_frames(rendered_sequence):
-    laps, truth = Laps(rendered_sequence, 1), rendered_sequence.ground_truth
+    laps, truth = PingPongReplay(rendered_sequence, 1), rendered_sequence.ground_truth
     last = len(rendered_sequence) - 1
     assert len(laps.ground_truth) == len(laps)
     T = laps.ground_truth.T_world_camera

@@ -38,7 +38,7 @@ def tiny_model() -> PlaceModel:
 
 
 def seen(found: Features) -> SimpleNamespace:
-    """What of a view the high layer looks at."""
+    """What of a view the semantic layer looks at."""
     return SimpleNamespace(features=found)
 
 

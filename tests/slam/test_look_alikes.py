@@ -15,7 +15,7 @@ from roomgraph.datasets.synthetic.renderer import Renderer
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.walk import camera_poses
 from roomgraph.datasets.trajectory import Trajectory
-from roomgraph.slam.backend.loop_verification import LoopBelief
+from roomgraph.slam.backend.loop_verification import LoopVerifier
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.slam import Slam, SlamSettings
 from roomgraph.slam.tracking import TrackingState
@@ -116,13 +116,13 @@ def _cameras(x, y, heading_deg):
 def offered(monkeypatch):
     """All loops that are measured, whether they are believed or not."""
     seen = []
-    admit = LoopBelief.admit
+    admit = LoopVerifier.admit
 
     def noting(self, measured, *others):
-        seen.append(measured.link)
+        seen.append(measured.constraint)
         return admit(self, measured, *others)
 
-    monkeypatch.setattr(LoopBelief, "admit", noting)
+    monkeypatch.setattr(LoopVerifier, "admit", noting)
     return seen
 
 
@@ -133,13 +133,13 @@ def _run(frames):
     return slam, trackings
 
 
-def _off_m(slam, link, T_world_camera):
-    """How far from the truth a link is, metres."""
+def _off_m(slam, constraint, T_world_camera):
+    """How far from the truth a constraint is, metres."""
     first, second = (
-        T_world_camera[slam.keyframes[k].frame_index] for k in (link.first, link.second)
+        T_world_camera[slam.keyframes[k].frame_index] for k in (constraint.first, constraint.second)
     )
     return float(
-        np.linalg.norm((se3.inverse(first) @ second - link.T_first_second)[:3, 3])
+        np.linalg.norm((se3.inverse(first) @ second - constraint.T_first_second)[:3, 3])
     )  # fmt: skip
 
 
@@ -148,10 +148,10 @@ def test_bays_of_a_corridor_are_not_taken_for_one_another(rng, offered):
     x = np.linspace(1.2, BAYS * BAY_M - 3.5, count)
     T = _cameras(x, np.zeros(count), 35 + 10 * np.sin(np.arange(count) / 8))
     slam, trackings = _run(_frames(_corridor(rng), T))
-    wrong = [link for link in offered if _off_m(slam, link, T) > 0.5]
+    wrong = [constraint for constraint in offered if _off_m(slam, constraint, T) > 0.5]
     assert len(wrong) >= 3, "the bays are meant to be mistaken for one another"
-    kept = [link for link in slam.links if link.is_loop]
-    assert not [link for link in kept if _off_m(slam, link, T) > 0.1]
+    kept = [constraint for constraint in slam.constraints if constraint.is_loop]
+    assert not [constraint for constraint in kept if _off_m(slam, constraint, T) > 0.1]
     estimate = Trajectory(
         np.array([t.stamp_s for t in trackings]),
         np.array([slam.pose_of(t.anchor) for t in trackings]),
@@ -170,9 +170,11 @@ def test_one_poster_in_two_rooms_does_not_join_them(rng, offered):
     T = np.concatenate([here, there])
     slam, trackings = _run(_frames(quads, T))
     across = [
-        link
-        for link in offered
-        if slam.keyframes[link.first].frame_index < 26 <= slam.keyframes[link.second].frame_index
+        constraint
+        for constraint in offered
+        if slam.keyframes[constraint.first].frame_index
+        < 26
+        <= slam.keyframes[constraint.second].frame_index
     ]
     assert len(across) >= 2, "the poster is meant to be recognised"
     assert slam.mapper.graph.components == 2

@@ -1,4 +1,4 @@
-"""The low layer on a real short sequence: the rendered walk."""
+"""SLAM on a real short sequence: the rendered walk."""
 
 from concurrent.futures import ThreadPoolExecutor
 

@@ -29,13 +29,13 @@ def demo(
     from roomgraph.app.console import Terminal
     from roomgraph.app.report.figures import summary
     from roomgraph.app.run.demo import run_demo
-    from roomgraph.app.run.session import Showing
+    from roomgraph.app.run.session import OutputOptions
     from roomgraph.app.settings import load_settings
 
     terminal = Terminal(quiet, verbose)
     settings = load_settings(None, {"seed": seed})
-    showing = Showing(visualize, save_rrd, report)
-    folder, metrics = run_demo(settings, output, overwrite, showing, terminal)
+    outputs = OutputOptions(visualize, save_rrd, report)
+    folder, metrics = run_demo(settings, output, overwrite, outputs, terminal)
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")

@@ -36,7 +36,7 @@ def run(
     """
     from roomgraph.app.console import Terminal
     from roomgraph.app.report.figures import summary
-    from roomgraph.app.run.session import Showing, map_sequence
+    from roomgraph.app.run.session import OutputOptions, map_sequence
     from roomgraph.app.storage.run_folder import make_run_folder
     from roomgraph.semantics.recognition.model_files import load_model
 
@@ -44,10 +44,10 @@ def run(
     settings, source = tuning.load(), opening.of(sequence)
     opened = source.open()
     places = load_model(model) if model is not None else None
-    showing = Showing(visualize, save_rrd, report)
-    showing.check()
+    outputs = OutputOptions(visualize, save_rrd, report)
+    outputs.check()
     folder = make_run_folder(output, opened.name, overwrite)
-    metrics = map_sequence(opened, settings, places, folder, showing, terminal, source)
+    metrics = map_sequence(opened, settings, places, folder, outputs, terminal, source)
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")

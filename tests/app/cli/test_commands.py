@@ -38,7 +38,7 @@ def test_frames_bear_the_label_of_the_room_that_they_were_taken_in(mapped):
     ]
     assert len(inside) > 0.9 * len(labels)
     for stamp, place in inside:
-        assert labels[f"{stamp:.6f}"] == graph.extents[place].label
+        assert labels[f"{stamp:.6f}"] == graph.rooms[place].label
 
 
 def test_the_same_run_twice_gives_the_same_files(mapped, rendered_walk, tmp_path, monkeypatch):

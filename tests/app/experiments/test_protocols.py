@@ -54,7 +54,7 @@ def test_another_building_with_ones_own_folders(photos, tmp_path, monkeypatch):
     assert content["accuracy_mean"] > 0.6
     assert 0 <= content["ece"] <= 1
     assert 0 <= content["unknown_auroc_mean"] <= 1
-    assert [row["trials"] for row in content["rows"]] == [2, 2]
+    assert [row["results"] for row in content["rows"]] == [2, 2]
 
 
 def test_route_along_a_rendered_walk(rendered_walk, photos, tmp_path, monkeypatch):

@@ -2,7 +2,11 @@ import cv2
 import numpy as np
 import pytest
 
-from roomgraph.app.experiments.visible_rooms import doorway_distances, sights, stretches_along
+from roomgraph.app.experiments.visible_rooms import (
+    doorway_distances,
+    stretches_along,
+    visible_rooms,
+)
 from roomgraph.app.experiments.walks import Walk
 from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.semantics.recognition.examples import folder_examples, sequence_examples
@@ -14,8 +18,8 @@ def walk(rendered_walk):
 
 
 def test_what_the_images_of_a_walk_show(walk):
-    found = sights([walk], walk.examples)
-    own = np.array([sight.own_share for sight in found])
+    found = visible_rooms([walk], walk.examples)
+    own = np.array([visible_room.own_share for visible_room in found])
     same = np.array([s.room == e.place for s, e in zip(found, walk.examples, strict=True)])
     assert ((own >= 0) & (own <= 1)).all()
     # Most of an image that shows more of its own room than of all others together is of that room.
@@ -37,7 +41,7 @@ def test_of_photographs_nothing_of_this_is_known(tmp_path):
     (tmp_path / "office").mkdir()
     cv2.imwrite(str(tmp_path / "office" / "a.png"), np.zeros((40, 60, 3), dtype=np.uint8))
     walk = Walk("photos", "photos", folder_examples(tmp_path))
-    assert sights([walk], walk.examples) == []
+    assert visible_rooms([walk], walk.examples) == []
     assert len(doorway_distances([walk], walk.examples)) == 0
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from roomgraph.app.report.floor_plan import draw_floor_plan
-from roomgraph.semantics.graph.graph import Extent, GraphNode, SemanticGraph
+from roomgraph.semantics.graph.graph import GraphNode, RoomPolygon, SemanticGraph
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid
 
@@ -16,9 +16,9 @@ LABELS = LabelSpace.of(["office"])
 def plan(outline, path_map):
     outline = np.array(outline, dtype=float)
     middle = outline.mean(axis=0)
-    extent = Extent("office1", "office", 1, 0.9, outline, 16.0, middle)
+    room = RoomPolygon("office1", "office", 1, 0.9, outline, 16.0, middle)
     node = GraphNode(0, 0, 0.0, np.array(path_map[0]), "office", 1, "office1", 0.9, np.empty(0))
-    graph = SemanticGraph(LABELS, (node,), (), (extent,), (), np.eye(4))
+    graph = SemanticGraph(LABELS, (node,), (), (room,), (), np.eye(4))
     grid = OccupancyGrid(np.zeros((100, 100), np.int8), 0.05, np.zeros(2), np.eye(4))
     figure = draw_floor_plan(graph, grid, np.array(path_map))
     figure.canvas.draw()

@@ -21,7 +21,7 @@ from roomgraph.app.report.summary import found_words
 from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.app.storage.thumbnails import ThumbnailWriter, read_thumbnails
 from roomgraph.semantics.graph.files import read_graph_json
-from roomgraph.semantics.graph.graph import Doorway, Extent, SemanticGraph
+from roomgraph.semantics.graph.graph import Doorway, RoomPolygon, SemanticGraph
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.semantics.rooms.doorway_lines import doorway_ends
 from tests.app.command import roomgraph
@@ -72,9 +72,9 @@ def test_the_page_says_what_was_found(mapped):
     run = mapped[1]
     text = " ".join(page_of(run).words)
     graph, metrics = read_graph_json(run / "graph.json"), RunFolder(run).read_metrics()
-    for extent in graph.extents:
-        assert extent.name in text
-        assert f"{extent.area_m2:.1f} m²" in text
+    for room in graph.rooms:
+        assert room.name in text
+        assert f"{room.area_m2:.1f} m²" in text
     assert f"off by {metrics['ate_rmse_m'] * 100:.2f} cm" in text
     assert "Trajectory against the truth" in text
     assert "A rendered building: its true path and rooms are known" in text
@@ -90,30 +90,30 @@ def test_the_page_says_what_was_found(mapped):
 def test_what_was_found_is_a_sentence():
     labels = LabelSpace.of(["office", "elevator_area"])
     square = np.array([[0.0, 0], [1, 0], [1, 1]])
-    extents = tuple(
-        Extent(f"{label}{i}", label, 0, 0.9, square, 1.0, square[0])
+    rooms = tuple(
+        RoomPolygon(f"{label}{i}", label, 0, 0.9, square, 1.0, square[0])
         for i, label in enumerate(["office", "elevator_area", "office", "unknown"])
     )
     door = Doorway(("a", "b"), np.zeros(2), None)
-    graph = SemanticGraph(labels, (), (), extents, (door, door))
+    graph = SemanticGraph(labels, (), (), rooms, (door, door))
     assert found_words(graph, {"path_length_m": 12.4}) == (
         "A walk of 12 m through 2 offices, an elevator area, a room without a label, "
         "joined by 2 doorways."
     )
-    assert found_words(replace(graph, extents=()), {"path_length_m": 1.0}) == ""
+    assert found_words(replace(graph, rooms=()), {"path_length_m": 1.0}) == ""
 
 
 def test_doors_lie_in_their_walls():
     c, s = np.cos(0.4), np.sin(0.4)
     turn = np.array([[c, s], [-s, c]])
     square = np.array([[0.0, 0], [3, 0], [3, 4], [0, 4]])
-    extents = tuple(
-        Extent(name, name, 0, 1.0, outline @ turn, 12.0, np.zeros(2))
+    rooms = tuple(
+        RoomPolygon(name, name, 0, 1.0, outline @ turn, 12.0, np.zeros(2))
         for name, outline in (("a", square), ("b", square + np.array([3.0, 0])), ("c", square * 9))
     )
     for at, along in (((3.0, 2.0), (0.0, 1.0)), ((1.5, 0.0), (1.0, 0.0))):
         door = Doorway(("a", "b"), np.array(at) @ turn, 0.9)
-        ends = doorway_ends(SemanticGraph(LabelSpace(), (), (), extents, (door,)), door)
+        ends = doorway_ends(SemanticGraph(LabelSpace(), (), (), rooms, (door,)), door)
         assert np.allclose(ends.mean(axis=0), door.position_map)
         way = (ends[1] - ends[0]) @ turn.T
         assert np.linalg.norm(way) == pytest.approx(0.9)
@@ -127,8 +127,8 @@ def test_the_floor_plan_is_a_picture_and_a_drawing(mapped):
     assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
     root = ET.parse(run / "floorplan.svg").getroot()
     words = " ".join(element.text or "" for element in root.iter() if element.tag.endswith("text"))
-    for extent in read_graph_json(run / "graph.json").extents:
-        assert extent.name.replace("_", " ") in words
+    for room in read_graph_json(run / "graph.json").rooms:
+        assert room.name.replace("_", " ") in words
     assert " m" in words
 
 

@@ -83,9 +83,9 @@ def test_nothing_is_free_inside_walls(floor):
 def test_places_lie_in_the_rooms_that_were_walked_through(mapped, floor):
     _, T_truth_map, rooms = floor
     graph = read_graph_json(RunFolder(mapped[1]).graph_json)
-    assert graph.extents
-    for extent in graph.extents:
-        x, y = se3.transform(T_truth_map, np.array([[*extent.centre_map, 0.0]]))[0, :2]
+    assert graph.rooms
+    for room in graph.rooms:
+        x, y = se3.transform(T_truth_map, np.array([[*room.centre_map, 0.0]]))[0, :2]
         assert any(
             np.all((p.min(axis=0) < (x, y)) & ((x, y) < p.max(axis=0))) for p in rooms.values()
         )

@@ -25,9 +25,9 @@ from roomgraph.datasets.se3 import pose, transform
 from roomgraph.semantics.graph.graph import (
     Doorway,
     EdgeKind,
-    Extent,
     GraphEdge,
     GraphNode,
+    RoomPolygon,
     SemanticGraph,
 )
 from roomgraph.semantics.labels import LabelSpace
@@ -78,11 +78,11 @@ def map_of(frames: int) -> MapView:
     poses = np.array([true_pose(i) for i in shown])
     keyframes = tuple(i for i in shown if i % 3 == 0)
     T_keyframes = np.array([true_pose(i) for i in keyframes])
-    links = np.stack([T_keyframes[:-1, :3, 3], T_keyframes[1:, :3, 3]], axis=1)
+    constraints = np.stack([T_keyframes[:-1, :3, 3], T_keyframes[1:, :3, 3]], axis=1)
     return MapView(
         PointMap(points, colours, np.zeros(2000, np.int32), np.zeros_like(points)),
-        rng.integers(0, 3, 2000).astype(np.uint16), keyframes, T_keyframes, links, links[:1],
-        poses[:, :3, 3], shown, tuple(tracking_of(i).state for i in shown),
+        rng.integers(0, 3, 2000).astype(np.uint16), keyframes, T_keyframes, constraints,
+        constraints[:1], poses[:, :3, 3], shown, tuple(tracking_of(i).state for i in shown),
     )  # fmt: skip
 
 
@@ -101,12 +101,14 @@ def graph_of(n: int) -> SemanticGraph:
 def with_rooms(graph: SemanticGraph) -> SemanticGraph:
     """Two rooms of 3 x 4 m side by side, a door of 0.9 m in the wall x = 3 between them."""
     square = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0], [0.0, 4.0]])
-    extents = tuple(
-        Extent(f"{LABELS.names[i]}1", LABELS.names[i], i, 0.9, outline, 12.0, outline.mean(axis=0))
+    rooms = tuple(
+        RoomPolygon(
+            f"{LABELS.names[i]}1", LABELS.names[i], i, 0.9, outline, 12.0, outline.mean(axis=0)
+        )
         for i, outline in ((1, square), (2, square + np.array([3.0, 0.0])))
     )
     door = Doorway(("kitchen1", "office1"), np.array([3.0, 2.0]), 0.9)
-    return replace(graph, extents=extents, doorways=(door,), T_map_world=T_MAP_WORLD)
+    return replace(graph, rooms=rooms, doorways=(door,), T_map_world=T_MAP_WORLD)
 
 
 @dataclass
@@ -173,7 +175,7 @@ def test_everything_shown_is_there(recorded: Recorded) -> None:
         "camera", "camera/image", "camera/image/colour", "camera/image/features/with_depth",
         "camera/image/features/plain", "camera/depth", "camera/depth/image", "map/colour",
         "map/labels", "map/above", "trajectory/estimate", "trajectory/recent", "trajectory/truth",
-        "keyframes", "pose_graph/links", "pose_graph/loops", "graph/nodes", "graph/edges",
+        "keyframes", "pose_graph/constraints", "pose_graph/loops", "graph/nodes", "graph/edges",
         "graph/places", "graph/rooms", "graph/doors",
     }  # fmt: skip
     others = {

@@ -37,10 +37,10 @@ def test_auroc_agrees_with_sklearn():
     from sklearn.metrics import roc_auc_score
 
     rng = np.random.default_rng(1)
-    usual, strange = rng.normal(1, 1, 300).round(1), rng.normal(0, 1, 200).round(1)
+    known, novel = rng.normal(1, 1, 300).round(1), rng.normal(0, 1, 200).round(1)
     truth = np.repeat([1, 0], [300, 200])
-    expected = roc_auc_score(truth, np.concatenate([usual, strange]))
-    assert auroc(usual, strange) == pytest.approx(expected)
+    expected = roc_auc_score(truth, np.concatenate([known, novel]))
+    assert auroc(known, novel) == pytest.approx(expected)
 
 
 def test_softmax_recovers_known_scaling():

@@ -8,7 +8,7 @@ from roomgraph.semantics.graph.correction import correct, learn_more
 from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
 from roomgraph.semantics.labels import LabelSpace
-from roomgraph.semantics.recognition.model import Lessons
+from roomgraph.semantics.recognition.model import Exemplars
 from roomgraph.semantics.recognition.model_files import load_model, save_model
 from tests.semantics.helpers import descriptors_of, features, frame_label, tiny_model
 
@@ -60,7 +60,7 @@ def test_wrong_names_are_told(place, label):
         correct(graph_of(["office1"], [0.9]), place, label, change_m=4.0)
 
 
-def with_lessons():
+def with_exemplars():
     model = tiny_model()
     vectors, labels = [], []
     for k, name in enumerate(("corridor", "kitchen", "office")):
@@ -68,12 +68,12 @@ def with_lessons():
             vectors.append(model.vector(features(descriptors_of(k, n))))
             labels.append(name)
     groups = np.array([str(i) for i in range(60)])
-    lessons = Lessons(np.array(vectors, dtype=np.float16), np.array(labels), groups)
-    return replace(model, lessons=lessons)
+    exemplars = Exemplars(np.array(vectors, dtype=np.float16), np.array(labels), groups)
+    return replace(model, exemplars=exemplars)
 
 
 def test_the_model_takes_in_a_new_class_and_keeps_the_old(tmp_path):
-    model = with_lessons()
+    model = with_exemplars()
     # The fourth word alone: nothing that the model was shown.
     new = [model.vector(features(descriptors_of(3, n))) for n in range(12, 32)]
     learned = learn_more(model, new, "attic", "visit")
@@ -85,16 +85,16 @@ def test_the_model_takes_in_a_new_class_and_keeps_the_old(tmp_path):
     save_model(tmp_path / "m", learned)
     again = load_model(tmp_path / "m")
     assert again.predict(features(descriptors_of(3, 40))).label == "attic"
-    np.testing.assert_array_equal(again.lessons.vectors, learned.lessons.vectors)
+    np.testing.assert_array_equal(again.exemplars.vectors, learned.exemplars.vectors)
     more = learn_more(again, new, "attic", "another visit")
     assert more.labels == learned.labels
 
 
-def test_without_lessons_or_images_nothing_is_learned():
-    with pytest.raises(SemanticsError, match="lessons"):
+def test_without_exemplars_or_images_nothing_is_learned():
+    with pytest.raises(SemanticsError, match="exemplars"):
         learn_more(tiny_model(), [np.ones(4)], "attic", "visit")
     with pytest.raises(SemanticsError, match="nothing to learn"):
-        learn_more(with_lessons(), [], "attic", "visit")
+        learn_more(with_exemplars(), [], "attic", "visit")
 
 
 def test_evidence_names_the_word_that_spoke_and_comes_back():

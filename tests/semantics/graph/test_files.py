@@ -18,9 +18,9 @@ from roomgraph.semantics.graph.files import (
 from roomgraph.semantics.graph.graph import (
     Doorway,
     EdgeKind,
-    Extent,
     GraphEdge,
     GraphNode,
+    RoomPolygon,
     SemanticGraph,
 )
 from roomgraph.semantics.labels import LabelSpace
@@ -46,16 +46,16 @@ def graph():
         GraphEdge(0, 3, 0.123456, EdgeKind.REVISIT),
     )
     square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 2.5]])
-    extents = (
-        Extent("corridor1", "corridor", 1, 0.75, square, 5.0, np.array([1.0, 1.25])),
-        Extent("office1", "office", 3, 0.5, square * [1, 2], 10.0, np.array([1.0, 2.5])),
+    rooms = (
+        RoomPolygon("corridor1", "corridor", 1, 0.75, square, 5.0, np.array([1.0, 1.25])),
+        RoomPolygon("office1", "office", 3, 0.5, square * [1, 2], 10.0, np.array([1.0, 2.5])),
     )
     doorways = (
         Doorway(("corridor1", "office1"), np.array([2.05, 1.0]), 0.9),
         Doorway(("corridor1", "kitchen1"), np.array([0.0, 1.0]), None),
     )
     T = pose(Rotation.from_rotvec([0.1, -0.4, 1.2]).as_matrix(), [0.5, -1, 0.8])
-    return SemanticGraph(labels, nodes, edges, extents, doorways, T)
+    return SemanticGraph(labels, nodes, edges, rooms, doorways, T)
 
 
 def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
@@ -67,7 +67,7 @@ def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
         np.testing.assert_allclose(ours.histogram, theirs.histogram, atol=1e-6)
         for name in ("id", "frame", "stamp_s", "label", "label_id", "place", "score", "evidence"):
             assert getattr(ours, name) == getattr(theirs, name)
-    for ours, theirs in zip(a.extents, b.extents, strict=True):
+    for ours, theirs in zip(a.rooms, b.rooms, strict=True):
         np.testing.assert_allclose(ours.polygon_map, theirs.polygon_map, atol=1e-4)
         np.testing.assert_allclose(ours.centre_map, theirs.centre_map, atol=1e-4)
         for name in ("name", "label", "label_id", "score", "area_m2"):

@@ -1,6 +1,6 @@
 import numpy as np
 
-from roomgraph.semantics.graph.instances import InstanceSettings, PlaceNames, Sight
+from roomgraph.semantics.graph.instances import InstanceSettings, Observation, PlaceNames
 from tests.semantics.helpers import view
 
 
@@ -9,12 +9,12 @@ class Walk:
 
     def __init__(self):
         self.names = PlaceNames(InstanceSettings(min_difference=0.8))
-        self.sights, self.stays = [], []
+        self.observations, self.stays = [], []
 
     def node(self, x, histogram, follows_last=False):
-        here = Sight(np.array([x, 0.0, 0.0]), histogram)
-        stay = self.names.assign("office", here, self.sights, self.stays, follows_last)
-        self.sights.append(here)
+        here = Observation(np.array([x, 0.0, 0.0]), histogram)
+        stay = self.names.assign("office", here, self.observations, self.stays, follows_last)
+        self.observations.append(here)
         self.stays.append(stay)
         return self.names.name(stay)
 

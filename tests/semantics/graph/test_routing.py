@@ -8,9 +8,9 @@ from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.graph import (
     Doorway,
     EdgeKind,
-    Extent,
     GraphEdge,
     GraphNode,
+    RoomPolygon,
     SemanticGraph,
 )
 from roomgraph.semantics.graph.routing import find_route, nodes_of, turning
@@ -58,12 +58,12 @@ def _graph(T_map_world=None, cut=()):
         Doorway(("office1", "corridor1"), np.array([0, 0.5]), 0.9),
         Doorway(("corridor1", "office2"), np.array([4, 0.5]), None),
     )
-    extents = (
-        Extent("office1", "office", LABELS.id_of("office"), 0.95,
+    rooms = (
+        RoomPolygon("office1", "office", LABELS.id_of("office"), 0.95,
                np.array([[-1, 0.5], [1, 0.5], [1, 3], [-1, 3]]), 5.0, np.array([0, 2])),
     )  # fmt: skip
     T = np.eye(4) if T_map_world is None else T_map_world
-    return SemanticGraph(LABELS, tuple(nodes), tuple(edges), extents, doors, T)
+    return SemanticGraph(LABELS, tuple(nodes), tuple(edges), rooms, doors, T)
 
 
 def test_a_way_between_rooms():
@@ -161,13 +161,13 @@ def _hall(wall_to=None):
         GraphEdge(i, i + 1, length, EdgeKind.PATH) for i, length in enumerate((4.0, 1.0, 4.0))
     )
     outline = np.array([[0, 0], [2, 0], [2, 5], [0, 5]], dtype=float)
-    extents = (Extent("office1", "office", LABELS.id_of("office"), 0.9, outline, 10.0,
+    rooms = (RoomPolygon("office1", "office", LABELS.id_of("office"), 0.9, outline, 10.0,
                       np.array([1.0, 2.5])),)  # fmt: skip
     cells = np.full((100, 40), FREE, dtype=np.int8)
     if wall_to is not None:
         cells[: round(wall_to / 0.05), 20] = OCCUPIED
     grid = OccupancyGrid(cells, 0.05, np.zeros(2), np.eye(4))
-    return SemanticGraph(LABELS, nodes, edges, extents, (), np.eye(4)), grid
+    return SemanticGraph(LABELS, nodes, edges, rooms, (), np.eye(4)), grid
 
 
 @pytest.mark.parametrize(("wall_to", "length"), [(None, 1.0), (2.0, 4.0), (5.0, 9.0)])

@@ -7,22 +7,22 @@ import pytest
 
 from roomgraph.semantics.evaluation.topology import (
     evaluate_doorways,
-    evaluate_extents,
+    evaluate_rooms,
     largest_error,
 )
 from roomgraph.semantics.graph.graph import GraphNode, SemanticGraph
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.semantics.rooms.indoors import completed
-from roomgraph.semantics.rooms.labelling import ExtentSettings, Vote
-from roomgraph.semantics.rooms.polygons import with_extents
-from roomgraph.slam.reconstruction.floor_analysis import Survey
-from roomgraph.slam.reconstruction.floor_plane import Ground
+from roomgraph.semantics.rooms.labelling import RoomSettings, Vote
+from roomgraph.semantics.rooms.polygons import with_rooms
+from roomgraph.slam.reconstruction.floor_analysis import FloorAnalysis
+from roomgraph.slam.reconstruction.floor_plane import FloorPlane
 from roomgraph.slam.reconstruction.occupancy_grid import occupancy
-from roomgraph.slam.reconstruction.occupancy_volume import SpaceSettings, carve
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings, carve
 from tests.slam.scene import NOISE, around, box_room, keyframes
 
 LABELS = LabelSpace.of(["corridor", "kitchen", "office"])
-SETTINGS = ExtentSettings()
+SETTINGS = RoomSettings()
 # Two offices on both sides of a corridor that one can see through, and walk through.
 OFFICE = box_room(0, 0, 3, 3, [("e", 1.0, 1.9)])
 HALL = box_room(3.1, 0, 5.1, 5, [("w", 1.0, 1.9), ("e", 3.0, 3.9)])
@@ -35,19 +35,19 @@ WALK = [
 
 
 @pytest.fixture(scope="module")
-def surveyed():
+def floor():
     rng = np.random.default_rng(5)
     cameras = [T for x, y, _ in WALK for T in around(x, y, 1.2, 10, 10)]
-    return survey_of(OFFICE + HALL + OTHER, cameras, rng)
+    return floor_analysis_of(OFFICE + HALL + OTHER, cameras, rng)
 
 
-def survey_of(boxes, cameras, rng):
+def floor_analysis_of(boxes, cameras, rng):
     made, T_map = keyframes(boxes, cameras, np.eye(4), rng, with_planes=False)
-    settings, ground = SpaceSettings(), Ground(np.eye(4), True, True, True)
-    space = carve(made, T_map, ground, settings, NOISE)
+    settings, floor_plane = OccupancyVolumeSettings(), FloorPlane(np.eye(4), True, True, True)
+    volume = carve(made, T_map, floor_plane, settings, NOISE)
     path = np.array([T[:3, 3] for T in cameras])
-    grid = occupancy(space, np.eye(4), settings, path)
-    return Survey(ground, space, grid, tuple(range(len(made))), path, ())
+    grid = occupancy(volume, np.eye(4), settings, path)
+    return FloorAnalysis(floor_plane, volume, grid, tuple(range(len(made))), path, ())
 
 
 def graph_of(walk, place=lambda label: f"{label}1"):
@@ -65,26 +65,26 @@ def votes_of(graph):
     return [Vote(n.frame, n.position_world, n.label, n.score) for n in graph.nodes]
 
 
-def found_in(surveyed, walk=WALK, settings=SETTINGS):
+def found_in(floor, walk=WALK, settings=SETTINGS):
     graph = graph_of(walk)
-    return with_extents(graph, surveyed, votes_of(graph), settings)
+    return with_rooms(graph, floor, votes_of(graph), settings)
 
 
-def test_rooms_have_their_floor_and_doors_join_them(surveyed):
-    graph = found_in(surveyed)
-    areas = {extent.name: extent.area_m2 for extent in graph.extents}
+def test_rooms_have_their_floor_and_doors_join_them(floor):
+    graph = found_in(floor)
+    areas = {room.name: room.area_m2 for room in graph.rooms}
     assert areas == pytest.approx({"office1": 9.0, "corridor1": 10.0, "office2": 9.0}, rel=0.025)
     doors = {door.places: door for door in graph.doorways}
     assert set(doors) == {("office1", "corridor1"), ("corridor1", "office2")}
     first = doors["office1", "corridor1"]
     assert first.position_map == pytest.approx([3.05, 1.45], abs=0.15)
     assert first.width_m == pytest.approx(0.9, abs=0.12)
-    for extent in graph.extents:
-        assert extent.score == pytest.approx(0.8)
-        x, y = extent.polygon_map.T
+    for room in graph.rooms:
+        assert room.score == pytest.approx(0.8)
+        x, y = room.polygon_map.T
         shoelace = 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
-        assert shoelace == pytest.approx(extent.area_m2, rel=0.05)
-        assert np.all(np.abs(extent.centre_map - SPOTS[extent.name]) < 0.8)
+        assert shoelace == pytest.approx(room.area_m2, rel=0.05)
+        assert np.all(np.abs(room.centre_map - SPOTS[room.name]) < 0.8)
 
 
 def floor_of(regions, walls=None):
@@ -144,55 +144,55 @@ def test_a_block_beside_another_room_is_not_taken(swapped):
     np.testing.assert_array_equal(full == (2 if swapped else 1), mine)
 
 
-def test_two_offices_side_by_side_are_two_though_the_path_took_them_for_one(surveyed):
+def test_two_offices_side_by_side_are_two_though_the_path_took_them_for_one(floor):
     # `graph_of` calls both office1.
-    places = [node.place for node in found_in(surveyed).nodes]
+    places = [node.place for node in found_in(floor).nodes]
     assert places == [*["office1"] * 2, *["corridor1"] * 3, *["office2"] * 2, "corridor1"]
 
 
-def test_a_room_seen_through_a_door_is_not_where_the_camera_is(surveyed):
+def test_a_room_seen_through_a_door_is_not_where_the_camera_is(floor):
     walk = [(x, y, "office" if i == 4 else label) for i, (x, y, label) in enumerate(WALK)]
-    graph = found_in(surveyed, walk)
+    graph = found_in(floor, walk)
     assert graph.nodes[4].place == "corridor1"
     assert graph.nodes[4].label == "corridor"
     assert graph.nodes[4].label_id == LABELS.id_of("corridor")
 
 
-def test_an_open_plan_is_parted_between_its_labels(surveyed):
+def test_an_open_plan_is_parted_between_its_labels(floor):
     walk = [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), (2.4, 2.0, "office"), *WALK[1:]]
-    graph = found_in(surveyed, walk, SETTINGS.model_copy(update={"min_part_m2": 3.0}))
+    graph = found_in(floor, walk, SETTINGS.model_copy(update={"min_part_m2": 3.0}))
     assert [n.place for n in graph.nodes[:4]] == ["kitchen1", "kitchen1", "office1", "office1"]
-    areas = {extent.name: extent.area_m2 for extent in graph.extents}
+    areas = {room.name: room.area_m2 for room in graph.rooms}
     assert areas["kitchen1"] + areas["office1"] == pytest.approx(9.0, rel=0.1)
     assert ("kitchen1", "office1") in {door.places for door in graph.doorways}
 
 
-def test_a_corner_that_looks_like_something_else_is_no_room(surveyed):
+def test_a_corner_that_looks_like_something_else_is_no_room(floor):
     offices = [(2.4, 2.0, "office"), (2.4, 1.0, "office")]
-    graph = found_in(surveyed, [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), *offices, *WALK[1:]])
+    graph = found_in(floor, [(0.5, 2.0, "kitchen"), (0.7, 1.0, "kitchen"), *offices, *WALK[1:]])
     assert {n.place for n in graph.nodes[:5]} == {"office1"}
     assert "kitchen1" not in graph.places
 
 
-def test_what_most_views_say_is_never_dropped(surveyed):
+def test_what_most_views_say_is_never_dropped(floor):
     # Long in a corner that looks like a kitchen, shortly in the rest.
     corner = [(0.5, 2.0 + 0.02 * i, "kitchen") for i in range(4)]
     walk = [*corner, (2.4, 2.0, "office"), (2.4, 1.0, "office"), *WALK[3:]]
-    graph = found_in(surveyed, walk)
+    graph = found_in(floor, walk)
     assert {n.label for n in graph.nodes[:6]} == {"kitchen"}
 
 
-def test_without_labels_there_are_rooms(surveyed):
+def test_without_labels_there_are_rooms(floor):
     walk = [(x, y, "unknown") for x, y, _ in WALK]
-    graph = found_in(surveyed, walk)
+    graph = found_in(floor, walk)
     assert graph.places == ("room1", "room2", "room3")
-    assert {extent.score for extent in graph.extents} == {0.0}
+    assert {room.score for room in graph.rooms} == {0.0}
 
 
-def test_nodes_of_another_sub_map_keep_a_place_of_their_own(surveyed):
+def test_nodes_of_another_sub_map_keep_a_place_of_their_own(floor):
     graph = graph_of(WALK)
     votes = [vote for vote in votes_of(graph) if vote.frame < 5]
-    found = with_extents(graph, surveyed, votes, SETTINGS)
+    found = with_rooms(graph, floor, votes, SETTINGS)
     elsewhere = {node.place for node in found.nodes[5:]}
     assert elsewhere.isdisjoint({node.place for node in found.nodes[:5]})
 
@@ -200,21 +200,21 @@ def test_nodes_of_another_sub_map_keep_a_place_of_their_own(surveyed):
 def test_a_way_that_nobody_looked_along_is_still_a_doorway():
     rng = np.random.default_rng(2)
     cameras = [*around(1.5, 1.5, count=10), *around(6.7, 3.5, count=10)]
-    apart = survey_of(OFFICE + OTHER, cameras, rng)
+    apart = floor_analysis_of(OFFICE + OTHER, cameras, rng)
     graph = found_in(apart, [(1.5, 1.5, "office"), (6.7, 3.5, "kitchen")])
     assert [door.places for door in graph.doorways] == [("office1", "kitchen1")]
     assert graph.doorways[0].width_m is None
 
 
-def test_an_empty_graph_stays_as_it_is(surveyed):
+def test_an_empty_graph_stays_as_it_is(floor):
     empty = SemanticGraph(LABELS, (), ())
-    assert with_extents(empty, surveyed, [], SETTINGS) is empty
+    assert with_rooms(empty, floor, [], SETTINGS) is empty
 
 
-def test_precision_and_recall_of_places_and_doorways(surveyed):
-    graph = found_in(surveyed)
+def test_precision_and_recall_of_places_and_doorways(floor):
+    graph = found_in(floor)
     matches = {"a": "office1", "hall": "corridor1", "b": "office2"}
-    places, errors = evaluate_extents(graph, {"a": 9, "hall": 10, "b": 9, "attic": 5}, matches)
+    places, errors = evaluate_rooms(graph, {"a": 9, "hall": 10, "b": 9, "attic": 5}, matches)
     assert (places.precision, places.recall) == (1.0, 0.75)
     assert largest_error(errors) < 0.1 and set(errors) == set(matches)
     doors = evaluate_doorways(graph, [("a", "hall"), ("hall", "b"), ("b", "attic")], matches)

@@ -66,6 +66,6 @@ def test_a_failed_keyframe_leaves_the_map_at_rest(rendered_sequence, monkeypatch
         for frame in frames_of(select(rendered_sequence, stride=2)):
             slam.process(frame)
         slam.finish()
-    links = slam.mapper.graph.links
+    constraints = slam.mapper.graph.constraints
     assert slam._backend._mappers.submit(lambda: True).result()
-    assert slam.mapper.graph.links == links
+    assert slam.mapper.graph.constraints == constraints

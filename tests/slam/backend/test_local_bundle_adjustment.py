@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from roomgraph.datasets import se3
-from roomgraph.slam.backend.local_bundle_adjustment import Window, WindowSettings
+from roomgraph.slam.backend.local_bundle_adjustment import (
+    LocalBundleAdjustment,
+    LocalBundleAdjustmentSettings,
+)
 from roomgraph.slam.features.extraction import Features
 from roomgraph.slam.geometry.range_image import RangeImage
 from roomgraph.slam.keyframe import Keyframe
@@ -47,7 +50,10 @@ def row(rng):
 
 def _window(keyframes, **settings):
     """A window to which each keyframe is matched with the one before."""
-    window, same = Window(WindowSettings(**settings), NOISE), np.arange(POINTS)
+    window, same = (
+        LocalBundleAdjustment(LocalBundleAdjustmentSettings(**settings), NOISE),
+        np.arange(POINTS),
+    )
     for k, keyframe in keyframes.items():
         window.add(keyframe)
         if k:

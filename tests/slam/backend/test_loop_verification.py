@@ -5,8 +5,8 @@ import pytest
 
 from roomgraph.datasets import se3
 from roomgraph.slam.backend.alignment import Measured
-from roomgraph.slam.backend.loop_verification import BeliefSettings, LoopBelief
-from roomgraph.slam.backend.pose_graph import Link, PoseGraph, PoseGraphSettings
+from roomgraph.slam.backend.loop_verification import LoopVerificationSettings, LoopVerifier
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph, PoseGraphSettings
 
 LAP = 128
 PIECE = 8  # keyframes
@@ -26,28 +26,28 @@ def _corridor(laps=2.0):
 
 
 def _measured(T, i, j, rng, like=None, is_loop=True):
-    """A link from `i` to `j`, as it would be if `j` were at `like`."""
+    """A constraint from `i` to `j`, as it would be if `j` were at `like`."""
     motion = se3.inverse(T[i]) @ T[j if like is None else like]
     motion = motion @ se3.exponential(SIGMA * rng.normal(size=6))
-    return Measured(Link(i, j, motion, INFORMATION, is_loop), 50, False)
+    return Measured(Constraint(i, j, motion, INFORMATION, is_loop), 50, False)
 
 
 def _walk(T, loops, rng):
     """Track along the corridor; offer each keyframe's loops as they come."""
-    graph, belief = PoseGraph(PoseGraphSettings()), LoopBelief(BeliefSettings())
+    graph, verifier = PoseGraph(PoseGraphSettings()), LoopVerifier(LoopVerificationSettings())
     graph.add_keyframe(0, T[0])
     taken = []
     for j in range(1, len(T)):
-        step = _measured(T, j - 1, j, rng, is_loop=False).link
+        step = _measured(T, j - 1, j, rng, is_loop=False).constraint
         graph.add_keyframe(j, graph[j - 1] @ step.T_first_second)
-        graph.add_link(step)
+        graph.add_constraint(step)
         for measured in loops.get(j, []):
-            for admitted in belief.admit(measured, graph):
-                graph.add_link(admitted.link)
+            for admitted in verifier.admit(measured, graph):
+                graph.add_constraint(admitted.constraint)
                 taken.append(admitted)
         graph.optimise()
-    kept = {id(link) for link in graph.links}
-    return graph, [m for m in taken if id(m.link) in kept]
+    kept = {id(constraint) for constraint in graph.constraints}
+    return graph, [m for m in taken if id(m.constraint) in kept]
 
 
 def _error_m(graph, T):
@@ -84,11 +84,11 @@ def test_scattered_wrong_loops_do_not_break_the_map(rng, share):
             # It looks like i, so it is measured as if j were where i's double is.
             if i < j - PIECE and i != j % LAP:
                 bad = _measured(T, i, j, rng, like=i)
-                wrong.add(id(bad.link))
+                wrong.add(id(bad.constraint))
                 loops[j] = [bad, *loops.get(j, [])]
     spoilt, taken = _walk(T, loops, np.random.default_rng(1))
     assert len(wrong) > 10
-    assert not any(id(m.link) in wrong for m in taken)
+    assert not any(id(m.constraint) in wrong for m in taken)
     assert np.abs(spoilt.stacked()[1] - right.stacked()[1]).max() < 0.01
 
 
@@ -102,7 +102,7 @@ def test_a_run_of_wrong_loops_that_agree_does_not_break_the_map(rng, start):
         i = j - 2 * PIECE if j < LAP else j - LAP + PIECE
         loops[j] = [_measured(T, i, j, rng, like=i)]
     spoilt, taken = _walk(T, loops, np.random.default_rng(1))
-    assert all(m.link.first == m.link.second - LAP for m in taken)
+    assert all(m.constraint.first == m.constraint.second - LAP for m in taken)
     assert _error_m(spoilt, T) < 1.5 * _error_m(right, T) + 0.02
 
 
@@ -112,41 +112,47 @@ def test_large_correction_waits_for_two_others_and_is_used_with_them(rng):
     for j in range(len(T)):
         graph.add_keyframe(j, T[j])
         if j:
-            graph.add_link(_measured(T, j - 1, j, rng, is_loop=False).link)
-    belief = LoopBelief(BeliefSettings())
+            graph.add_constraint(_measured(T, j - 1, j, rng, is_loop=False).constraint)
+    verifier = LoopVerifier(LoopVerificationSettings())
     # Between the likely drift of 38 m, 0.5 m, and the possible, 1.5 m.
     shifted = se3.pose(t=(0.9, 0, 0)) @ T
     loops = [
         Measured(
-            Link(i, LAP + i, se3.inverse(T[i]) @ shifted[LAP + i], INFORMATION, True), 50, False
+            Constraint(i, LAP + i, se3.inverse(T[i]) @ shifted[LAP + i], INFORMATION, True),
+            50,
+            False,
         )
         for i in (20, 21, 22)
     ]
-    assert belief.admit(loops[0], graph) == []
-    assert belief.admit(loops[0], graph) == []  # the same keyframe again confirms nothing
-    assert belief.admit(loops[1], graph) == []
-    taken = belief.admit(loops[2], graph)
+    assert verifier.admit(loops[0], graph) == []
+    assert verifier.admit(loops[0], graph) == []  # the same keyframe again confirms nothing
+    assert verifier.admit(loops[1], graph) == []
+    taken = verifier.admit(loops[2], graph)
     assert {id(m) for m in taken} == {id(m) for m in loops}
-    assert belief.held == []
+    assert verifier.held == []
 
 
 def test_sub_maps_are_joined_only_by_loops_that_agree(rng):
     T = _corridor(1.5)
-    graph, belief = PoseGraph(PoseGraphSettings()), LoopBelief(BeliefSettings())
+    graph, verifier = PoseGraph(PoseGraphSettings()), LoopVerifier(LoopVerificationSettings())
     for j in range(len(T)):
         starts = j in (0, LAP + 20)
         graph.add_keyframe(j, T[j] if j <= LAP else T[j - 100], starts_component=starts)
         if not starts:
-            graph.add_link(_measured(T, j - 1, j, rng, is_loop=False).link)
+            graph.add_constraint(_measured(T, j - 1, j, rng, is_loop=False).constraint)
     graph.optimise()
     for j in range(LAP + 22, LAP + 40, 2):
         i = _wrong_place(j, rng)
         for measured in (_measured(T, i, j, rng, like=i), _measured(T, j - LAP, j, rng)):
-            for admitted in belief.admit(measured, graph):
-                graph.add_link(admitted.link)
+            for admitted in verifier.admit(measured, graph):
+                graph.add_constraint(admitted.constraint)
         graph.optimise()
     assert graph.components == 1
-    assert all(link.first == link.second - LAP for link in graph.links if link.is_loop)
+    assert all(
+        constraint.first == constraint.second - LAP
+        for constraint in graph.constraints
+        if constraint.is_loop
+    )
     between = se3.inverse(graph[38]) @ graph[38 + LAP]
     assert np.linalg.norm(between[:3, 3]) < 0.05
 
@@ -169,7 +175,7 @@ def _turning(old_deg, new_deg, rng, like=0.0):
         elsewhere = se3.pose(t=(5.0, 0, 0)) if j >= len(old) else np.eye(4)
         graph.add_keyframe(j, elsewhere @ pose, starts_component=starts)
         if not starts:
-            graph.add_link(_measured(T, j - 1, j, rng, is_loop=False).link)
+            graph.add_constraint(_measured(T, j - 1, j, rng, is_loop=False).constraint)
     graph.optimise()
     loops = [
         _measured(T, int(np.abs(old - angle).argmin()), len(old) + k, rng)
@@ -179,10 +185,10 @@ def _turning(old_deg, new_deg, rng, like=0.0):
 
 
 def _joined(graph, loops, view_deg=62.0):
-    belief = LoopBelief(BeliefSettings())
+    verifier = LoopVerifier(LoopVerificationSettings())
     for measured in loops:
-        for admitted in belief.admit(measured, graph, view_deg):
-            graph.add_link(admitted.link)
+        for admitted in verifier.admit(measured, graph, view_deg):
+            graph.add_constraint(admitted.constraint)
         graph.optimise()
     return graph.components == 1
 

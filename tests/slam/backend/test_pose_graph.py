@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from roomgraph.datasets import se3
-from roomgraph.slam.backend.pose_graph import Link, PoseGraph, PoseGraphSettings
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph, PoseGraphSettings
 from roomgraph.slam.errors import SlamError
 from tests.slam.helpers import motion_error
 
@@ -16,21 +16,21 @@ def _ring(count=12, radius=2.0):
     return np.array(T)
 
 
-def _link(ring, i, j, is_loop=False, error=None):
+def _constraint(ring, i, j, is_loop=False, error=None):
     T = se3.inverse(ring[i]) @ ring[j]
     if error is not None:
         T = T @ se3.exponential(error)
-    return Link(i, j, T, 1e4 * np.eye(6), is_loop)
+    return Constraint(i, j, T, 1e4 * np.eye(6), is_loop)
 
 
 def _graph(ring, noise, rng, **settings):
-    """Chain the ring's poses by noisy links, each placed by the link before."""
+    """Chain the ring's poses by noisy constraints, each placed by the constraint before."""
     graph = PoseGraph(PoseGraphSettings(**settings))
     graph.add_keyframe(0, ring[0])
     for i in range(1, len(ring)):
-        link = _link(ring, i - 1, i, error=noise * rng.normal(size=6))
-        graph.add_keyframe(i, graph[i - 1] @ link.T_first_second)
-        graph.add_link(link)
+        constraint = _constraint(ring, i - 1, i, error=noise * rng.normal(size=6))
+        graph.add_keyframe(i, graph[i - 1] @ constraint.T_first_second)
+        graph.add_constraint(constraint)
         graph.optimise()
     return graph
 
@@ -39,7 +39,7 @@ def test_ring_closes_on_its_known_optimum(rng):
     ring = _ring()
     graph = _graph(ring, 0.02, rng)
     before = motion_error(graph[len(ring) - 1], ring[-1])[0]
-    graph.add_link(_link(ring, len(ring) - 1, 0, is_loop=True))
+    graph.add_constraint(_constraint(ring, len(ring) - 1, 0, is_loop=True))
     graph.optimise()
     after = motion_error(graph[len(ring) - 1], ring[-1])[0]
     assert after < 0.3 * before
@@ -49,7 +49,7 @@ def test_ring_closes_on_its_known_optimum(rng):
 def test_ring_without_noise_stays(rng):
     ring = _ring()
     graph = _graph(ring, 0.0, rng)
-    graph.add_link(_link(ring, len(ring) - 1, 0, is_loop=True))
+    graph.add_constraint(_constraint(ring, len(ring) - 1, 0, is_loop=True))
     graph.optimise()
     assert all(np.allclose(graph[i], ring[i], atol=1e-6) for i in range(len(ring)))
 
@@ -60,9 +60,9 @@ def test_robust_kernel_keeps_a_wrong_loop_from_bending_the_ring(rng):
     for kernel in ("none", "cauchy"):
         graph = _graph(ring, 0.002, np.random.default_rng(1), kernel=kernel, reject_width=1000)
         for i in range(len(ring) - 2):
-            graph.add_link(_link(ring, i, i + 2))
-        wrong = _link(ring, 1, 7, is_loop=True, error=np.array([0, 1.0, 0, 0.5, 0, 0.5]))
-        graph.add_link(wrong)
+            graph.add_constraint(_constraint(ring, i, i + 2))
+        wrong = _constraint(ring, 1, 7, is_loop=True, error=np.array([0, 1.0, 0, 0.5, 0, 0.5]))
+        graph.add_constraint(wrong)
         graph.optimise()
         errors[kernel] = max(motion_error(graph[i], ring[i])[0] for i in range(len(ring)))
     assert errors["cauchy"] < 0.25 * errors["none"]
@@ -87,9 +87,9 @@ def test_misuse_is_said(rng):
     with pytest.raises(SlamError, match="already"):
         graph.add_keyframe(0, np.eye(4))
     with pytest.raises(SlamError, match="keyframe 5"):
-        graph.add_link(Link(0, 5, np.eye(4), np.eye(6), False))
+        graph.add_constraint(Constraint(0, 5, np.eye(4), np.eye(6), False))
     graph.add_keyframe(1, np.eye(4))
-    with pytest.raises(SlamError, match="link to every keyframe"):
+    with pytest.raises(SlamError, match="constraint to every keyframe"):
         graph.optimise()
 
 
@@ -102,25 +102,25 @@ def _two_parts(ring, cut, rng, noise=0.0):
         if i == cut:
             graph.add_keyframe(i, elsewhere @ ring[i], starts_component=True)
         else:
-            link = _link(ring, i - 1, i, error=noise * rng.normal(size=6))
-            graph.add_keyframe(i, graph[i - 1] @ link.T_first_second)
-            graph.add_link(link)
+            constraint = _constraint(ring, i - 1, i, error=noise * rng.normal(size=6))
+            graph.add_keyframe(i, graph[i - 1] @ constraint.T_first_second)
+            graph.add_constraint(constraint)
         graph.optimise()
     return graph
 
 
 @pytest.mark.parametrize("ends", [(2, 9), (9, 2)])
-def test_link_between_two_sub_maps_moves_the_younger(rng, ends):
+def test_constraint_between_two_sub_maps_moves_the_younger(rng, ends):
     ring = _ring()
     graph = _two_parts(ring, 6, rng)
     assert graph.components == 2
     assert [graph.component_of(i) for i in (0, 5, 6, 11)] == [0, 0, 6, 6]
     side = np.linalg.norm(ring[1][:3, 3] - ring[0][:3, 3])
-    assert graph.linked_way(0, 5, 9.0) == pytest.approx(5 * side)
-    assert graph.linked_way(0, 5, 2.0) == graph.linked_way(5, 6, 9.0) == np.inf
+    assert graph.path_length(0, 5, 9.0) == pytest.approx(5 * side)
+    assert graph.path_length(0, 5, 2.0) == graph.path_length(5, 6, 9.0) == np.inf
     assert graph.around(1, 1.5 * side) == {0, 1, 2}
     assert motion_error(graph[8], ring[8])[0] > 1
-    graph.add_link(_link(ring, *ends, is_loop=True))
+    graph.add_constraint(_constraint(ring, *ends, is_loop=True))
     graph.optimise()
     assert graph.components == 1
     assert {graph.component_of(i) for i in range(12)} == {0}
@@ -130,12 +130,12 @@ def test_link_between_two_sub_maps_moves_the_younger(rng, ends):
 def test_joined_sub_maps_go_on_and_are_optimised_together(rng):
     ring = _ring(40)
     graph = _two_parts(ring, 20, rng, noise=0.01)
-    graph.add_link(_link(ring, 0, 39, is_loop=True))
+    graph.add_constraint(_constraint(ring, 0, 39, is_loop=True))
     graph.optimise()
     before = max(motion_error(graph[i], ring[i])[0] for i in range(40))
-    graph.add_link(_link(ring, 19, 20, is_loop=True))
+    graph.add_constraint(_constraint(ring, 19, 20, is_loop=True))
     graph.add_keyframe(40, graph[39])
-    graph.add_link(Link(39, 40, np.eye(4), 1e4 * np.eye(6), False))
+    graph.add_constraint(Constraint(39, 40, np.eye(4), 1e4 * np.eye(6), False))
     graph.optimise()
     assert max(motion_error(graph[i], ring[i])[0] for i in range(40)) < before
     assert graph.component_of(40) == 0
@@ -149,14 +149,14 @@ def test_three_sub_maps_keep_the_world_of_the_first(rng):
         place = ring[i] if i < 2 else se3.pose(t=(i // 2, 0, 0)) @ ring[i]
         graph.add_keyframe(i, place, starts_component=i % 2 == 0)
         if i % 2:
-            graph.add_link(_link(ring, i - 1, i))
+            graph.add_constraint(_constraint(ring, i - 1, i))
     graph.optimise()
     assert graph.components == 3
-    graph.add_link(_link(ring, 3, 5, is_loop=True))
+    graph.add_constraint(_constraint(ring, 3, 5, is_loop=True))
     graph.optimise()
     assert graph.components == 2
     assert np.allclose(graph[5], se3.pose(t=(1, 0, 0)) @ ring[5], atol=1e-6)
-    graph.add_link(_link(ring, 4, 1, is_loop=True))
+    graph.add_constraint(_constraint(ring, 4, 1, is_loop=True))
     graph.optimise()
     assert all(np.allclose(graph[i], ring[i], atol=1e-5) for i in range(6))
 
@@ -164,33 +164,33 @@ def test_three_sub_maps_keep_the_world_of_the_first(rng):
 def test_wrong_loops_are_taken_out_and_said(rng):
     ring = _ring(60)
     graph = _graph(ring, 0.002, np.random.default_rng(7))
-    right = [_link(ring, i, 59 - i, is_loop=True) for i in range(0, 20, 2)]
+    right = [_constraint(ring, i, 59 - i, is_loop=True) for i in range(0, 20, 2)]
     wrong = [
-        _link(ring, i, 40 + i, is_loop=True, error=np.array([0, 0.5, 0, *rng.normal(size=3)]))
+        _constraint(ring, i, 40 + i, is_loop=True, error=np.array([0, 0.5, 0, *rng.normal(size=3)]))
         for i in range(0, 9, 3)
     ]
     without = _graph(ring, 0.002, np.random.default_rng(7))
-    for link in right:
-        without.add_link(link)
+    for constraint in right:
+        without.add_constraint(constraint)
         without.optimise()
     rejected = []
-    for link in (*right[:4], *wrong, *right[4:]):
-        graph.add_link(link)
+    for constraint in (*right[:4], *wrong, *right[4:]):
+        graph.add_constraint(constraint)
         rejected += graph.optimise()
-    assert {id(link) for link in rejected} == {id(link) for link in wrong}
+    assert {id(constraint) for constraint in rejected} == {id(constraint) for constraint in wrong}
     assert graph.rejected == rejected
-    assert len(graph.links) == 59 + len(right)
+    assert len(graph.constraints) == 59 + len(right)
     assert all(np.allclose(graph[i], without[i], atol=1e-3) for i in range(60))
 
 
 def test_part_that_hung_on_a_wrong_loop_alone_is_a_sub_map_again(rng):
     ring = _ring(12)
     graph = _two_parts(ring, 6, rng)
-    wrong = _link(ring, 0, 6, is_loop=True, error=np.array([0, 1.0, 0, 1.0, 0, 0]))
-    graph.add_link(wrong)
+    wrong = _constraint(ring, 0, 6, is_loop=True, error=np.array([0, 1.0, 0, 1.0, 0, 0]))
+    graph.add_constraint(wrong)
     graph.optimise()
     for i in range(4):
-        graph.add_link(_link(ring, i, 11 - i, is_loop=True))
+        graph.add_constraint(_constraint(ring, i, 11 - i, is_loop=True))
     assert graph.optimise() == [wrong]
     assert graph.components == 1
     assert all(np.allclose(graph[i], ring[i], atol=1e-4) for i in range(12))

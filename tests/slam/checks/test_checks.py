@@ -155,7 +155,7 @@ def test_what_a_remedy_does_not_cure_stays_as_it_was(rendered_sequence):
 
 def test_mending_can_be_left_out(rendered_sequence):
     wrong = Bent(rendered_sequence, moved(10, 0))
-    found = examine(wrong, CheckSettings(mend=False))
+    found = examine(wrong, CheckSettings(correct_camera=False))
     assert found.sequence is wrong
     assert [finding.kind for finding in found.findings] == ["registration"]
 
@@ -242,7 +242,7 @@ def test_swapped_focal_lengths_are_named(rng):
     swapped = given_as(stretched, replace(wide, fx=wide.fy, fy=wide.fx))
     finding = find_wrong_focal(swapped, taken_by(swapped[0].camera), settings, noise)
     assert "swapped" in finding.suggestion
-    assert finding.remedy.camera.intrinsics == wide
+    assert finding.correction.camera.intrinsics == wide
 
 
 def test_where_one_focal_length_is_told_pixels_keep_their_shape(rng):
@@ -261,7 +261,7 @@ def test_where_one_focal_length_is_told_pixels_keep_their_shape(rng):
     settings, noise = CalibrationSettings(tolerance=0.03), SensorNoise()
     assert measure_focal(pairs, settings, noise).sigma[1] > settings.tolerance / 2
     finding = find_wrong_focal(pairs, taken_by(given), settings, noise)
-    mended = finding.remedy.camera.intrinsics
+    mended = finding.correction.camera.intrinsics
     assert np.isclose(mended.fx, 525, rtol=0.03)
     assert np.isclose(mended.fx, mended.fy)
 

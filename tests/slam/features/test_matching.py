@@ -9,7 +9,7 @@ from roomgraph.slam.features.extraction import FeatureExtractor, Features, Featu
 from roomgraph.slam.features.matching import match, match_near, near, squared_distances
 from roomgraph.slam.features.view import View, depth_at
 from roomgraph.slam.geometry.range_image import without_edges
-from roomgraph.slam.relocalisation.word_index import AppearanceIndex, AppearanceSettings
+from roomgraph.slam.relocalisation.word_index import WordIndex, WordIndexSettings
 
 
 def test_distances_agree_with_scipy(rng):
@@ -148,8 +148,8 @@ def test_view_has_points_where_there_is_depth(rng):
     assert np.allclose(camera.project(view.points_camera[inner]), view.features.pixels[inner])
 
 
-def test_appearance_index_ranks_the_same_place_first(rng):
-    index = AppearanceIndex(AppearanceSettings())
+def test_word_index_ranks_the_same_place_first(rng):
+    index = WordIndex(WordIndexSettings())
     places = [root(rng.integers(0, 200, (80, 128)).astype(np.float32) ** 2) for _ in range(6)]
     for keyframe, descriptors in enumerate(places):
         index.add(keyframe, index.words_of(descriptors))

@@ -5,21 +5,21 @@ import pytest
 
 from roomgraph.datasets import se3
 from roomgraph.slam.geometry.range_image import RangeImage
-from roomgraph.slam.reconstruction.floor_plane import Ground
+from roomgraph.slam.reconstruction.floor_plane import FloorPlane
 from roomgraph.slam.reconstruction.occupancy_grid import FREE, OCCUPIED, UNKNOWN, occupancy
-from roomgraph.slam.reconstruction.occupancy_volume import SpaceSettings, carve
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings, carve
 from tests.slam.scene import NOISE, around, box_room, camera, keyframes
 
-SETTINGS = SpaceSettings()
-LEVEL = Ground(np.eye(4), True, True, True)
+SETTINGS = OccupancyVolumeSettings()
+LEVEL = FloorPlane(np.eye(4), True, True, True)
 
 
 def grid_of(boxes, cameras, rng=None, settings=SETTINGS):
     """The grid of boxes, in their own frame."""
     made, T_map = keyframes(boxes, cameras, np.eye(4), rng, with_planes=False)
-    space = carve(made, T_map, LEVEL, settings, NOISE)
+    volume = carve(made, T_map, LEVEL, settings, NOISE)
     path = np.array([T[:3, 3] for T in cameras])
-    return occupancy(space, np.eye(4), settings, path), space
+    return occupancy(volume, np.eye(4), settings, path), volume
 
 
 def state_at(grid, x, y):
@@ -118,10 +118,13 @@ def test_what_is_low_or_thin_stands_in_the_way_too(rng):
 
 
 def test_large_cells_leave_the_floor_where_it_is(rng):
-    _, space = grid_of(
-        box_room(0, 0, 3, 2.4), around(1.5, 1.2, 1.4, 30, 24), rng, SpaceSettings(cell_m=0.2)
+    _, volume = grid_of(
+        box_room(0, 0, 3, 2.4),
+        around(1.5, 1.2, 1.4, 30, 24),
+        rng,
+        OccupancyVolumeSettings(cell_m=0.2),
     )
-    assert space.hits[0].any()
+    assert volume.hits[0].any()
 
 
 def test_a_view_over_a_counter_does_not_free_it(rng):
@@ -131,15 +134,15 @@ def test_a_view_over_a_counter_does_not_free_it(rng):
 
 
 def test_a_large_map_gets_larger_cells():
-    few = SpaceSettings(max_cells=10_000)
-    grid, space = grid_of(box_room(0, 0, 3.9, 3.9), around(2, 2), settings=few)
-    assert space.hits[0].size <= 1.2 * few.max_cells
+    few = OccupancyVolumeSettings(max_cells=10_000)
+    grid, volume = grid_of(box_room(0, 0, 3.9, 3.9), around(2, 2), settings=few)
+    assert volume.hits[0].size <= 1.2 * few.max_cells
     assert grid.cell_m >= few.cell_m
 
 
 def test_no_keyframes_make_an_empty_grid():
-    space = carve([], {}, LEVEL, SETTINGS, NOISE)
-    grid = occupancy(space, np.eye(4), SETTINGS, np.empty((0, 3)))
+    volume = carve([], {}, LEVEL, SETTINGS, NOISE)
+    grid = occupancy(volume, np.eye(4), SETTINGS, np.empty((0, 3)))
     assert (grid.cells == UNKNOWN).all()
 
 
@@ -147,9 +150,9 @@ def test_the_map_frame_is_used(rng):
     """A world that lies as the first camera does gives the same grid."""
     room, cameras = box_room(0, 0, 3, 2.4), around(1.5, 1.2)
     made, T_world = keyframes(room, cameras, with_planes=False)
-    ground = Ground(cameras[0], True, True, True)
-    space = carve(made, T_world, ground, SETTINGS, NOISE)
+    floor_plane = FloorPlane(cameras[0], True, True, True)
+    volume = carve(made, T_world, floor_plane, SETTINGS, NOISE)
     other, T_map = keyframes(room, cameras, np.eye(4), with_planes=False)
     same = carve(other, T_map, LEVEL, SETTINGS, NOISE)
-    assert (space.hits == same.hits).mean() > 0.99
+    assert (volume.hits == same.hits).mean() > 0.99
     assert np.allclose(se3.inverse(T_world[0]) @ np.eye(4), np.eye(4))

@@ -8,7 +8,7 @@ from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.planes import Plane
 from roomgraph.slam.geometry.range_image import RangeImage
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.dynamic_points import look_again
+from roomgraph.slam.reconstruction.dynamic_points import count_visibility
 from roomgraph.slam.reconstruction.fusion import Fusion
 from roomgraph.slam.reconstruction.point_map import (
     LiveMap,
@@ -155,7 +155,7 @@ def test_a_map_that_follows_loops_is_the_map_made_afresh(rng):
     del keyframes[1]
     followed = live.update(keyframes, moved)
     assert len(followed) and _same(followed, LiveMap(settings, NOISE).update(keyframes, moved))
-    coarse = MapSettings(voxel_m=0.05, carve=False)
+    coarse = MapSettings(voxel_m=0.05, remove_dynamic=False)
     assert _same(followed, build_map(keyframes.values(), moved, coarse, NOISE))
 
 
@@ -254,7 +254,7 @@ def test_noise_alone_makes_no_surface_empty(rng):
     for number, image in images:
         fusion.add(number, image, T[number])
     voxels = fusion.voxels()
-    seen = look_again(voxels, 0.02, images, T, noise)
+    seen = count_visibility(voxels, 0.02, images, T, noise)
     assert seen.on.sum() > 10 * len(voxels.keys) * 0.5
     assert seen.is_empty.mean() < 0.01
 
