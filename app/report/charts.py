@@ -50,7 +50,7 @@ def label_chart(
     time = stamps_s - stamps_s[0]
     end = max(float(time[-1]), 1e-3)
     strips.imshow(
-        image, aspect="auto", room=(0, end, len(rows) - 0.5, -0.5), interpolation="nearest"
+        image, aspect="auto", extent=(0, end, len(rows) - 0.5, -0.5), interpolation="nearest"
     )
     strips.set_yticks(range(len(rows)), [name for name, _ in rows])
     lines.plot(time, scores, color=_LINE, lw=1.0)

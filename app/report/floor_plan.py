@@ -120,7 +120,7 @@ def _draw_cells(axes: Axes, graph: SemanticGraph, grid: OccupancyGrid) -> None:
     high = low + np.array(grid.cells.shape[::-1]) * grid.cell_m
     limits = axes.axis()
     axes.imshow(
-        image, room=(low[0], high[0], low[1], high[1]), origin="lower",
+        image, extent=(low[0], high[0], low[1], high[1]), origin="lower",
         interpolation="nearest", zorder=2,
     )  # fmt: skip
     axes.axis(limits)
