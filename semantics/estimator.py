@@ -1,4 +1,4 @@
-"""What the estimators of this folder share: scikit-learn's conventions without its import.
+"""What the estimators share: scikit-learn's conventions without its import.
 
 Importing scikit-learn takes seconds, and a run that only predicts needs none of it. So these
 estimators do not inherit from ``BaseEstimator``: they follow its protocol (``get_params``,
@@ -40,6 +40,10 @@ class Estimator:
                 raise ValueError(f"{owner} has no parameter {name!r}; expected one of {names}")
             setattr(self, name, value)
         return self
+
+    def clone(self, **changes: Any) -> Self:
+        """Return an unfitted estimator with the same parameters, but for some."""
+        return type(self)(**(self.get_params() | changes))
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value!r}" for name, value in self.get_params().items())

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.graph.topology import TopologySettings
-from roomgraph.semantics.recognition.presets import TrainingSettings
+from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.semantics.rooms.labelling import RoomSettings
-from roomgraph.semantics.temporal.labeller import LabellerSettings
+from roomgraph.semantics.temporal.settings import LabellerSettings
 
 
 class SemanticsSettings(Settings):

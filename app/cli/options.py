@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 if TYPE_CHECKING:
+    from roomgraph.app.learning.training import Recipe
     from roomgraph.app.settings import AppSettings
     from roomgraph.app.storage.input import InputOptions
 
@@ -73,6 +74,18 @@ SaveRrdOption = Annotated[
 ReportOption = Annotated[
     bool, typer.Option("--report/--no-report", help="Write report.html and the floor plan.")
 ]
+PresetOption = Annotated[
+    str | None,
+    typer.Option("--preset", metavar="NAME", help="best, or paper: as published. [default: best]"),
+]
+DescriptorOption = Annotated[
+    str | None,
+    typer.Option("--descriptor", metavar="NAME", help="How images become vectors: fisher, words."),
+]
+ClassifierOption = Annotated[
+    str | None,
+    typer.Option("--classifier", metavar="NAME", help="What learns from them: linear_svm."),
+]
 SeedOption = Annotated[
     int | None,
     typer.Option("--seed", metavar="N", min=0, help="Of all random choices.", show_default="0"),
@@ -118,6 +131,21 @@ class SettingFlags:
         from roomgraph.app.settings import load_settings
 
         return load_settings(self.config, {"seed": self.seed, "slam.max_depth_m": self.max_depth})
+
+
+@dataclass(frozen=True, slots=True)
+class RecipeFlags:
+    """What a place model is made of."""
+
+    preset: PresetOption = None
+    descriptor: DescriptorOption = None
+    classifier: ClassifierOption = None
+
+    def recipe(self) -> Recipe:
+        """Return the names that were given."""
+        from roomgraph.app.learning.training import Recipe
+
+        return Recipe(self.preset, self.descriptor, self.classifier)
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:

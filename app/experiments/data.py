@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,14 +17,14 @@ from roomgraph.app.experiments.visible_rooms import (
     visible_rooms,
 )
 from roomgraph.app.experiments.walks import Walk
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.app.settings import AppSettings
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
+from roomgraph.semantics.descriptors.descriptor import vectors_of
 from roomgraph.semantics.evaluation.splits import EvaluationSet
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
-from roomgraph.semantics.recognition.description import Described, describe_images
-from roomgraph.semantics.recognition.encoding import vectors_of
 from roomgraph.semantics.recognition.examples import Example
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
-from roomgraph.semantics.recognition.presets import Preset, preset
+from roomgraph.semantics.recognition.preparation import Prepared, prepare_images
 from roomgraph.semantics.recognition.training import learn, threshold, walks_of
 from roomgraph.semantics.recognition.transitions import count_transitions
 
@@ -32,83 +33,88 @@ TURNED = 2500
 
 
 class Describer:
-    """Turns images into what the classifier of a preset sees; the words are learned beforehand.
+    """Turns images into what a classifier sees; the descriptor is learned beforehand.
 
     Parameters
     ----------
-    name : str
-        The preset.
+    settings : AppSettings
+        What descriptor and classifier are.
     examples : sequence of Example
-        What the words are learned from: images that are never tested.
-    seed : int
-        Of the words.
+        What the descriptor is learned from: images that are never tested.
     terminal : Terminal
         Shows progress.
     """
 
     def __init__(
-        self, name: Preset, examples: Sequence[Example], seed: int, terminal: Terminal
+        self, settings: AppSettings, examples: Sequence[Example], terminal: Terminal
     ) -> None:
-        self.settings, self.features = preset(name)
+        self.training = settings.semantics.training
+        self.descriptor = self.training.make_descriptor(settings.slam.features)
         self.terminal = terminal
-        self.model = learn(
-            self.describe(examples, "Learning words", True), self.features, self.settings, seed
-        )
+        images = self.prepare(examples, "Learning the descriptor", to_fit=True)
+        self.model = learn(images, self.descriptor, self.training, settings.seed)
 
-    def describe(
-        self, examples: Sequence[Example], title: str, to_learn_words: bool = False
-    ) -> list[Described]:
-        """Return the readable images, described by what the classifier sees, or for words."""
-        features = self.features if to_learn_words or self.settings.encoding == "words" else None
-        dense = self.settings.fisher.dense if self.settings.encoding == "fisher" else None
+    def prepare(
+        self, examples: Sequence[Example], title: str, to_fit: bool = False
+    ) -> list[Prepared]:
+        """Return the readable images whose label is known, prepared."""
         known = [example for example in examples if example.label != UNKNOWN]
         with self.terminal.progress(title) as advance:
-            found = describe_images(
-                known, features, dense, self.settings.threads,
+            found = prepare_images(
+                known, self.descriptor, self.training.threads, to_fit,
                 lambda done, total: advance(done, total, "images"),
             )  # fmt: skip
-        return [described for described in found if described is not None]
+        return [image for image in found if image is not None]
 
-    def vectors(self, images: Sequence[Described]) -> NDArray[Any]:
-        """Return what the classifier sees (N, D)."""
-        return vectors_of(images, self.model.bag, self.model.encoder, self.settings)
+    def vectors(self, images: Sequence[Prepared]) -> NDArray[Any]:
+        """Return what a classifier sees (N, D); zeros where there is too little to see."""
+        found = vectors_of(
+            self.descriptor, [image.content for image in images], self.training.threads
+        )
+        nothing = np.zeros(self.descriptor.length, dtype=np.float32)
+        return np.array([nothing if vector is None else vector for vector in found])
 
     def relearned(
-        self, images: Sequence[Described], vectors: NDArray[Any], groups: Sequence[str], seed: int
+        self, images: Sequence[Prepared], vectors: NDArray[Any], groups: Sequence[str], seed: int
     ) -> PlaceModel:
-        """Return a model with the same words whose machines are learned from other images."""
-        classifier = PlaceClassifier(self.settings.C, random_state=seed).fit(
-            vectors, [image.example.label for image in images], groups
-        )
-        labels = LabelSpace.of(image.example.label for image in images)
+        """Return a model with the same descriptor whose classifier learns from other images."""
+        labels = [image.example.label for image in images]
+        classifier = self.training.make_classifier().clone(random_state=seed)
+        classifier.fit(vectors, labels, groups)
+        space = LabelSpace.of(labels)
         return replace(
-            self.model, labels=labels, classifier=classifier, exemplars=None,
-            reject_below=threshold(classifier, self.settings.reject),
-            transitions=count_transitions(walks_of(images), labels.names[1:]),
+            self.model, labels=space, classifier=classifier, exemplars=None,
+            reject_below=threshold(classifier, self.training.reject),
+            transitions=count_transitions(walks_of(images), space.names[1:]),
         )  # fmt: skip
 
-    def predictions(self, model: PlaceModel, images: Sequence[Described]) -> list[PlacePrediction]:
+    def predictions(self, model: PlaceModel, images: Sequence[Prepared]) -> list[PlacePrediction]:
         """Return what each image alone looks like."""
-        none = np.zeros(model.bag.n_words)
-        return [model.prediction(vector, none) for vector in self.vectors(images)]
+        with ThreadPoolExecutor(self.training.threads) as pool:
+            return list(pool.map(lambda image: self._prediction(model, image), images))
+
+    def _prediction(self, model: PlaceModel, image: Prepared) -> PlacePrediction:
+        if image.content is None:
+            return model.prediction(None)
+        return model.prediction(self.descriptor.describe(image.content))
 
     def collect(self, walks: Sequence[Walk], stride: int) -> Collection:
         """Return every `stride`-th image of the walks, described."""
         chosen = [(walk, e) for walk in walks for e in walk.examples[::stride]]
-        images = self.describe([e for _, e in chosen], "Describing images")
+        images = self.prepare([e for _, e in chosen], "Describing images")
         of = {id(example): walk for walk, example in chosen}
         where = [of[id(image.example)] for image in images]
-        return Collection(images, where, self.vectors(images), self.settings.C)
+        return Collection(images, where, self.vectors(images), self.training.make_classifier())
 
 
 @dataclass(frozen=True, slots=True)
 class Collection:
-    """Described images, the walk of each, and what the classifier sees of them (N, D)."""
+    """Images, the walk of each, what a classifier sees of them (N, D), and that, unfitted."""
 
-    images: list[Described]
+    images: list[Prepared]
     walks: list[Walk]
     vectors: NDArray[Any]
-    C: float
+    classifier: PlaceClassifier
 
     def evaluation_set(self) -> EvaluationSet:
         """Return the images as the experiments take them.
@@ -123,24 +129,23 @@ class Collection:
         visits = np.array([example.group for example in examples])
         walks = list({id(walk): walk for walk in self.walks}.values())
         seen = visible_rooms(walks, examples)
+        order, stretches = self._along(visits)
         return EvaluationSet(
-            turned(vectors.astype(np.float64)) if len(vectors) <= TURNED else vectors,
-            np.array([example.label for example in examples]),
-            visits,
-            np.array(rooms),
-            np.array(buildings),
-            np.array([walk.light for walk in self.walks]),
-            self.C,
-            *self._along(visits),
-            doorway_distances(walks, examples),
-            np.array([visible_room.label for visible_room in seen]),
-            np.array(
-                [
-                    f"{b}/{visible_room.room}"
-                    for b, visible_room in zip(buildings, seen, strict=False)
-                ]
+            vectors=turned(vectors.astype(np.float64)) if len(vectors) <= TURNED else vectors,
+            labels=np.array([example.label for example in examples]),
+            visits=visits,
+            rooms=np.array(rooms),
+            buildings=np.array(buildings),
+            lights=np.array([walk.light for walk in self.walks]),
+            classifier=self.classifier,
+            order=order,
+            stretches=stretches,
+            doorway_m=doorway_distances(walks, examples),
+            visible=np.array([room.label for room in seen]),
+            visible_room_names=np.array(
+                [f"{b}/{room.room}" for b, room in zip(buildings, seen, strict=False)]
             ),
-            np.array([visible_room.own_share for visible_room in seen]),
+            own_share=np.array([room.own_share for room in seen]),
         )
 
     def _along(self, visits: NDArray[np.str_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -32,7 +32,9 @@ class FinishedRun:
     told_apart: int
 
 
-def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -> FinishedRun:
+def finished_run(
+    model: PlaceModel, root: Path, settings: AppSettings, terminal: Terminal
+) -> FinishedRun:
     """Map and label a sequence as ``roomgraph run`` does, and compare its graph with the truth.
 
     Raises
@@ -44,7 +46,6 @@ def finished_run(model: PlaceModel, root: Path, seed: int, terminal: Terminal) -
     places = sequence.places
     if places is None:
         raise RoomgraphError("the sequence does not say which rooms it shows", where=root)
-    settings = AppSettings(seed=seed)
     with TemporaryDirectory() as scratch:
         folder = make_run_folder(Path(scratch) / "run", sequence.name, overwrite=False)
         nothing = OutputOptions(live=False, save=False, report=False)

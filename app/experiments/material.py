@@ -1,4 +1,4 @@
-"""What the experiments work on: walks, described, and the words they are described by."""
+"""What the experiments work on: walks, described, and what they are described by."""
 
 from __future__ import annotations
 
@@ -8,12 +8,18 @@ from pathlib import Path
 
 from roomgraph.app.console import Terminal
 from roomgraph.app.experiments.data import Collection, Describer
-from roomgraph.app.experiments.walks import STRIDE, WORD_SEED, Walk, data_walks, rendered_walks
+from roomgraph.app.experiments.walks import (
+    DESCRIPTOR_SEED,
+    STRIDE,
+    Walk,
+    data_walks,
+    rendered_walks,
+)
+from roomgraph.app.settings import AppSettings
 from roomgraph.semantics.evaluation.splits import EvaluationSet, SplitResult
 from roomgraph.semantics.recognition.model import PlaceModel
-from roomgraph.semantics.recognition.presets import Preset
 
-WORDS_NOTE = "The words are learned from images that are never tested: {}."
+DESCRIPTOR_NOTE = "The descriptor is learned from images that are never tested: {}."
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +32,7 @@ class Material:
     evaluation_set: EvaluationSet
     data: tuple[str, ...]
     notes: tuple[str, ...]
-    seed: int
+    settings: AppSettings
     terminal: Terminal
 
     def watched(
@@ -41,32 +47,29 @@ class Material:
         return tuple(done)
 
     def model_without(self, building: str) -> PlaceModel:
-        """Return a model of all buildings but one; the words are those of the evaluation_set."""
+        """Return a model of all buildings but one; the descriptor is that of the evaluation set."""
         kept = [i for i, walk in enumerate(self.collection.walks) if walk.building != building]
         return self.describer.relearned(
             [self.collection.images[i] for i in kept], self.collection.vectors[kept],
-            [self.collection.walks[i].building for i in kept], self.seed,
+            [self.collection.walks[i].building for i in kept], self.settings.seed,
         )  # fmt: skip
 
 
 def gather(
-    preset: Preset,
+    settings: AppSettings,
     data: Sequence[Path],
-    seed: int,
     terminal: Terminal,
     seeds: Sequence[int],
     stride: int,
 ) -> Material:
-    """Return the user's data, or rendered buildings, described by a preset.
+    """Return the user's data, or rendered buildings, described as the settings say.
 
     Parameters
     ----------
-    preset : {"best", "paper"}
-        How images are described.
+    settings : AppSettings
+        How images are described and labelled.
     data : sequence of Path
         The user's folders or sequences; none for rendered buildings.
-    seed : int
-        Of the words.
     terminal : Terminal
         Shows progress.
     seeds : sequence of int
@@ -76,17 +79,20 @@ def gather(
     """
     if data:
         walks = data_walks(data)
-        words = [e for walk in walks for e in walk.examples[::STRIDE]]
-        note = "The words are learned from a quarter of all images, without their labels."
+        learned = [e for walk in walks for e in walk.examples[::STRIDE]]
+        note = "The descriptor is learned from a quarter of all images, without their labels."
     else:
         walks = rendered_walks(seeds, terminal)
-        words = [e for w in rendered_walks((WORD_SEED,), terminal) for e in w.examples[::STRIDE]]
-        note = WORDS_NOTE.format(f"building {WORD_SEED}")
-    describer = Describer(preset, words, seed, terminal)
+        aside = rendered_walks((DESCRIPTOR_SEED,), terminal)
+        learned = [e for walk in aside for e in walk.examples[::STRIDE]]
+        note = DESCRIPTOR_NOTE.format(f"building {DESCRIPTOR_SEED}")
+    describer = Describer(settings, learned, terminal)
     collection = describer.collect(walks, 1 if data else stride)
     names = tuple(str(root) for root in data) or tuple(
         f"rendered {name}" for name in dict.fromkeys(walk.building for walk in walks)
     )
     return Material(
-        describer, walks, collection, collection.evaluation_set(), names, (note,), seed, terminal
-    )
+        describer=describer, walks=walks, collection=collection,
+        evaluation_set=collection.evaluation_set(), data=names, notes=(note,),
+        settings=settings, terminal=terminal,
+    )  # fmt: skip

@@ -72,7 +72,7 @@ def _draw_rows(axis: Any, content: dict[str, Any]) -> None:
         )  # fmt: skip
     middle, half = (len(rows) - 1) / 2, max(len(rows), _FEWEST_BARS) / 2
     axis.set(xlim=(0, 104), xlabel="images right (%)", ylim=(middle - half, middle + half))
-    axis.set_title(f"{content['protocol']}, preset {content['preset']}", loc="left")
+    axis.set_title(f"{content['protocol']}, {content['recipe']}", loc="left")
     axis.spines[["top", "right"]].set_visible(False)
 
 

@@ -17,12 +17,13 @@ from roomgraph.app.experiments.material import Material, gather
 from roomgraph.app.experiments.report import ProtocolReport
 from roomgraph.app.experiments.visible_rooms import route_positions
 from roomgraph.app.experiments.walks import SEEDS, STRIDE, data_walks
+from roomgraph.app.learning.training import Recipe
+from roomgraph.app.settings import AppSettings
 from roomgraph.datasets.errors import RoomgraphError
 from roomgraph.semantics.evaluation import splits
 from roomgraph.semantics.evaluation.open_set import evaluate_open_set
 from roomgraph.semantics.evaluation.route import route_results
 from roomgraph.semantics.evaluation.splits import SplitResult
-from roomgraph.semantics.recognition.presets import Preset
 
 PERMUTATIONS = 100
 # Across light, twice as many images: those learned from, and those halfway between.
@@ -31,13 +32,28 @@ LIGHT_STRIDE = STRIDE // 2
 
 def run_protocol(
     name: str,
-    preset: Preset,
+    recipe: Recipe,
+    settings: AppSettings,
     data: Sequence[Path],
-    seed: int,
     terminal: Terminal,
     seeds: Sequence[int] = SEEDS,
 ) -> ProtocolReport:
     """Run an experiment on rendered buildings, or on the user's data.
+
+    Parameters
+    ----------
+    name : str
+        One of `PROTOCOLS`.
+    recipe : Recipe
+        What place models are made of, in place of what the settings say.
+    settings : AppSettings
+        Of everything else.
+    data : sequence of Path
+        The user's folders or sequences; none for rendered buildings.
+    terminal : Terminal
+        Shows progress.
+    seeds : sequence of int
+        Of the rendered buildings.
 
     Raises
     ------
@@ -48,11 +64,13 @@ def run_protocol(
         raise AppError(
             "no such experiment", where="--protocol", expected=" or ".join(PROTOCOLS), got=name
         )
+    settings = recipe.applied(settings)
     if name == "recognition" and len(data) == 1 and (data[0] / "test").is_dir():
-        return _train_and_test(preset, data[0], seed, terminal)
-    stride = LIGHT_STRIDE if name == "light" else STRIDE
-    material = gather(preset, data, seed, terminal, seeds, stride)
-    return replace(PROTOCOLS[name](material), name=name, preset=preset)
+        report = _train_and_test(settings, data[0], terminal)
+    else:
+        stride = LIGHT_STRIDE if name == "light" else STRIDE
+        report = PROTOCOLS[name](gather(settings, data, terminal, seeds, stride))
+    return replace(report, name=name, recipe=str(recipe))
 
 
 def _recognition(m: Material) -> ProtocolReport:
@@ -60,7 +78,7 @@ def _recognition(m: Material) -> ProtocolReport:
     knows_doorways = lights > 1 and len(m.evaluation_set.doorway_m) > 0
     knows_visible_rooms = lights > 1 and len(m.evaluation_set.visible) > 0
     total = splits.N_FOLDS * (lights + 1 + (lights > 1) + knows_doorways + knows_visible_rooms)
-    found = m.watched("Recognition", splits.recognition(m.evaluation_set, m.seed), total)
+    found = m.watched("Recognition", splits.recognition(m.evaluation_set, m.settings.seed), total)
     last = found[-1].row
     aside = (last, splits.AWAY, splits.BY_VISIBLE_ROOM)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
@@ -84,7 +102,9 @@ def _recognition(m: Material) -> ProtocolReport:
             f"'{splits.BY_VISIBLE_ROOM}' an image bears the label of the room that "
             "most of it shows, and that room is held out. Not counted either."
         )
-    return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows, figures=figures)
+    return ProtocolReport(
+        data=m.data, results=found, notes=(*notes, *m.notes), headline=rows, figures=figures
+    )
 
 
 def _light(m: Material) -> ProtocolReport:
@@ -116,7 +136,7 @@ def _light(m: Material) -> ProtocolReport:
         )
     aside = (splits.STRETCHES, splits.STRETCHES_SAME_LIGHT)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
-    return ProtocolReport("", "", m.data, found, (*notes, *m.notes), rows)
+    return ProtocolReport(data=m.data, results=found, notes=(*notes, *m.notes), headline=rows)
 
 
 def _building(m: Material) -> ProtocolReport:
@@ -124,7 +144,9 @@ def _building(m: Material) -> ProtocolReport:
     if len(buildings) < 2:
         raise AppError("one building only", expected="two folders or more with --data")
     found = m.watched(
-        "Other buildings", splits.building(m.evaluation_set, m.seed, PERMUTATIONS), PERMUTATIONS
+        "Other buildings",
+        splits.building(m.evaluation_set, m.settings.seed, PERMUTATIONS),
+        PERMUTATIONS,
     )
     open_set = None
     if len(buildings) > 2:
@@ -139,7 +161,7 @@ def _building(m: Material) -> ProtocolReport:
         "training, a building never seen tested.",
         *m.notes,
     )
-    return ProtocolReport("", "", m.data, found, notes, open_set=open_set)
+    return ProtocolReport(data=m.data, results=found, notes=notes, open_set=open_set)
 
 
 def _route(m: Material) -> ProtocolReport:
@@ -151,16 +173,16 @@ def _route(m: Material) -> ProtocolReport:
     runs: list[FinishedRun] = []
     novel: set[str] = set()
     for done, walk in enumerate(routes, 1):
-        images = m.describer.describe(walk.examples, f"Route {done} of {len(routes)}")
+        images = m.describer.prepare(walk.examples, f"Route {done} of {len(routes)}")
         model = m.model_without(walk.building)
         novel |= {image.example.label for image in images} - set(model.labels.names)
         found += route_results(
             model, m.describer.predictions(model, images),
             [image.example.label for image in images],
-            route_positions([image.example for image in images]),
+            route_positions([image.example for image in images]), m.settings.semantics.labeller,
         )  # fmt: skip
         try:
-            runs.append(finished_run(model, Path(walk.examples[0].session), m.seed, m.terminal))
+            runs.append(finished_run(model, walk.root, m.settings, m.terminal))
         except RoomgraphError as error:
             m.terminal.warn(f"not mapped: {error}")
     found += [result for run in runs for result in (run.nodes, run.frames)]
@@ -186,8 +208,9 @@ def _route(m: Material) -> ProtocolReport:
         )
     headline = (FINISHED,) if runs else ("nodes, vote",)
     return ProtocolReport(
-        "", "", m.data, tuple(found), (*notes, *m.notes), headline, figures=figures
-    )
+        data=m.data, results=tuple(found), notes=(*notes, *m.notes), headline=headline,
+        figures=figures,
+    )  # fmt: skip
 
 
 PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
@@ -198,19 +221,19 @@ PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
 }
 
 
-def _train_and_test(preset: Preset, root: Path, seed: int, terminal: Terminal) -> ProtocolReport:
+def _train_and_test(settings: AppSettings, root: Path, terminal: Terminal) -> ProtocolReport:
     """Learn from the folder ``train``, label the folder ``test``."""
     train, test = (data_walks([root / part])[0].examples for part in ("train", "test"))
-    describer = Describer(preset, train, seed, terminal)
-    images = describer.describe(test, "Describing test images")
+    describer = Describer(settings, train, terminal)
+    images = describer.prepare(test, "Describing test images")
     found = describer.model.classifier.predict(describer.vectors(images)).astype(str)
     truth = np.array([image.example.label for image in images])
     # The spread of five parts of the test images says how far the figure can be trusted.
-    parts = np.array_split(np.random.default_rng(seed).permutation(len(truth)), 5)
-    result = [SplitResult("train to test, fifths", truth[part], found[part]) for part in parts]
+    parts = np.array_split(np.random.default_rng(settings.seed).permutation(len(truth)), 5)
+    results = [SplitResult("train to test, fifths", truth[part], found[part]) for part in parts]
     accuracy: Any = describer.model.training["cross_validated_accuracy"]
     notes = (
         f"Learned from {root.name}/train alone, tested on {root.name}/test; std over five parts.",
         f"Cross-validated on the training images: {accuracy:.1%}.",
     )
-    return ProtocolReport("recognition", preset, (str(root),), tuple(result), notes)
+    return ProtocolReport(data=(str(root),), results=tuple(results), notes=notes)

@@ -22,14 +22,12 @@ from roomgraph.semantics.evaluation.open_set import OpenSetEvaluation
 from roomgraph.semantics.evaluation.splits import SplitResult, per_class
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ProtocolReport:
     """What an experiment found.
 
     Attributes
     ----------
-    name, preset : str
-        The experiment, and how places were learned.
     data : tuple of str
         What it was run on.
     results : tuple of SplitResult
@@ -42,16 +40,18 @@ class ProtocolReport:
         Probabilities for buildings never seen.
     figures : mapping
         Further numbers by name.
+    name, recipe : str
+        The experiment, and what the place models were made of.
     """
 
-    name: str
-    preset: str
     data: tuple[str, ...]
     results: tuple[SplitResult, ...]
     notes: tuple[str, ...]
     headline: tuple[str, ...] = ()
     open_set: OpenSetEvaluation | None = None
     figures: dict[str, Any] = field(default_factory=dict)
+    name: str = ""
+    recipe: str = ""
 
     @property
     def counted(self) -> list[SplitResult]:
@@ -73,7 +73,7 @@ class ProtocolReport:
         content: dict[str, Any] = {
             "schema": "roomgraph/protocol/1",
             "protocol": self.name,
-            "preset": self.preset,
+            "recipe": self.recipe,
             "data": list(self.data),
             "accuracy_mean": _rounded(np.mean(accuracies)),
             "accuracy_std": _rounded(np.std(accuracies)),
@@ -123,7 +123,7 @@ def write_report(directory: Path, report: ProtocolReport) -> dict[str, Any]:
 def markdown(content: dict[str, Any]) -> str:
     """Return the report as Markdown."""
     lines = [
-        f"# {content['protocol']}, preset {content['preset']}", "",
+        f"# {content['protocol']}, {content['recipe']}", "",
         f"On {', '.join(content['data'])}.", "",
         "| | accuracy | std | mean per class | trainings | images tested |",
         "| --- | ---: | ---: | ---: | ---: | ---: |",

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from roomgraph.app.console import Terminal
-from roomgraph.app.experiments.walks import STRIDE, WORD_SEED, data_walks, rendered_walks
+from roomgraph.app.experiments.walks import DESCRIPTOR_SEED, STRIDE, data_walks, rendered_walks
 from roomgraph.datasets.files import replacing, write_text
 from roomgraph.semantics.descriptors.neural_gas import NeuralGas
-from roomgraph.semantics.recognition.description import describe_images
-from roomgraph.semantics.recognition.presets import preset
+from roomgraph.semantics.recognition.preparation import prepare_images
+from roomgraph.semantics.recognition.presets import PRESETS
 
 NAME = "vocabulary"
 NUMBERS = (10, 25, 50, 100, 200, 400)
@@ -90,7 +90,7 @@ def write_vocabulary(directory: Path, found: list[Quantised], data: list[Path]) 
     content = {
         "schema": "roomgraph/protocol/1",
         "protocol": NAME,
-        "data": [str(root) for root in data] or [f"rendered building{WORD_SEED}"],
+        "data": [str(root) for root in data] or [f"rendered building{DESCRIPTOR_SEED}"],
         "descriptors": [count, length],
         "accuracy_mean": gas["accuracy_mean"],
         "accuracy_std": gas["accuracy_std"],
@@ -130,14 +130,16 @@ def vocabulary_markdown(content: dict[str, Any]) -> str:
 
 
 def _descriptors(data: list[Path], terminal: Terminal) -> NDArray[np.float32]:
-    walks = data_walks(data) if data else rendered_walks((WORD_SEED,), terminal)
-    settings, features = preset("paper")
+    walks = data_walks(data) if data else rendered_walks((DESCRIPTOR_SEED,), terminal)
+    paper = PRESETS["paper"]
+    descriptor = paper.training.make_descriptor(paper.features)
     examples = [e for walk in walks for e in walk.examples[::IMAGE_STRIDE]]
     with terminal.progress("Describing images") as advance:
-        images = describe_images(
-            examples, features, None, settings.threads, lambda a, b: advance(a, b, "images")
-        )
-    found = np.vstack([image.descriptors for image in images if image is not None])
+        images = prepare_images(
+            examples, descriptor, paper.training.threads, to_fit=True,
+            progress=lambda done, total: advance(done, total, "images"),
+        )  # fmt: skip
+    found = np.vstack([i.content for i in images if i is not None and i.content is not None])
     rows = np.random.default_rng(0).permutation(len(found))[:MOST]
     return np.ascontiguousarray(found[rows])
 

@@ -13,8 +13,8 @@ from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.synthetic.settings import LIGHTS
 from roomgraph.semantics.recognition.examples import Example, sequence_examples
 
-# Six buildings to experiment on, and one to learn the words from. The demonstration uses others.
-SEEDS, WORD_SEED = (20, 21, 22, 23, 24, 25), 26
+# Six buildings to experiment on, and one to learn descriptors from. The demonstration uses others.
+SEEDS, DESCRIPTOR_SEED = (20, 21, 22, 23, 24, 25), 26
 # Small images, wide steps: the experiments compare views, they do not track. One image in four of
 # a walk is learned from or tested, so that hardly two are alike.
 WALK = {"width": 320, "height": 240, "step_m": 0.16, "turn_deg": 8.0}

@@ -8,14 +8,14 @@ import numpy as np
 
 from roomgraph.app.console import Advance
 from roomgraph.app.errors import AppError
+from roomgraph.app.settings import load_settings
 from roomgraph.app.storage.run_folder import RunFolder
-from roomgraph.semantics.graph.correction import Correction, correct, learn_more
+from roomgraph.semantics.graph.correction import Correction, correct
 from roomgraph.semantics.graph.files import read_graph_json, write_graph_json, write_graphml
 from roomgraph.semantics.graph.graph import SemanticGraph
 from roomgraph.semantics.labels import write_labels
+from roomgraph.semantics.recognition.exemplars import learn_more
 from roomgraph.semantics.recognition.model import PlaceModel
-from roomgraph.semantics.temporal.labeller import LabellerSettings
-from roomgraph.slam.features.extraction import FeatureExtractor, Features
 
 # Images of a corrected place that the model learns from, evenly spread.
 MOST_IMAGES = 60
@@ -51,9 +51,10 @@ def correct_run(folder: RunFolder, changes: Mapping[str, str]) -> list[Correctio
         The folder is no run's, or its graph has no such place. Nothing is written then.
     """
     graph = read_graph_json(folder.existing(folder.graph_json))
+    settings = load_settings(folder.existing(folder.config), only=["semantics.labeller"])
     corrections = []
     for place, label in changes.items():
-        correction = correct(graph, place, label, LabellerSettings().change_m)
+        correction = correct(graph, place, label, settings.semantics.labeller.change_m)
         corrections.append(correction)
         graph = correction.graph
     write_graph_json(folder.graph_json, graph)
@@ -77,17 +78,12 @@ def learn_from_run(
         The model keeps no exemplars.
     """
     sequence = folder.read_input().open()
-    extractor = FeatureExtractor(model.features)
     for correction in corrections:
         label = next(n.label for n in correction.graph.nodes if n.id in correction.told)
         frames = frames_of_nodes(correction.graph, correction.told, len(sequence))
         vectors = []
         for done, frame in enumerate(frames, 1):
-            colour = sequence[frame].colour
-            # A model that describes images itself asks for no features.
-            dense = model.encoder is not None
-            features = Features.none() if dense else extractor.extract_image(colour)
-            vector = model.vector(features, colour)
+            vector = model.vector(sequence[frame].colour)
             if vector is not None:
                 vectors.append(vector)
             advance(done, len(frames), label)

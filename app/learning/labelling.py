@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.table import Table
 
 from roomgraph.app.console import Advance
@@ -19,16 +18,15 @@ from roomgraph.app.storage.input import open_input
 from roomgraph.datasets import sequence as sequences
 from roomgraph.datasets.errors import DatasetError, RoomgraphError
 from roomgraph.datasets.files import write_text
-from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.images import IMAGE_SUFFIXES, read_colour
 from roomgraph.datasets.readers.registry import guess_layout
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.evaluation.accuracy import compare_labels
 from roomgraph.semantics.recognition.examples import Example
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
-from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
-from roomgraph.slam.features.extraction import FeatureExtractor, Features
-from roomgraph.slam.tracking import Tracking, TrackingState
+from roomgraph.semantics.temporal.labeller import PlaceLabeller
+from roomgraph.semantics.temporal.look import FrameInput
+from roomgraph.semantics.temporal.settings import LabellerSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,21 +119,11 @@ def _unlabelled(path: Path) -> Example:
     return Example(str(path), "", str(path), lambda: read_colour(path))
 
 
-def _features(
-    model: PlaceModel, extractor: FeatureExtractor, colour: NDArray[np.uint8]
-) -> Features:
-    """Return the features that a model asks for: none if it describes images itself."""
-    return Features.none() if model.encoder is not None else extractor.extract_image(colour)
-
-
 def _label_images(
     model: PlaceModel, examples: list[Example], advance: Advance
 ) -> Iterator[LabelledItem]:
-    extractor = FeatureExtractor(model.features)
-
     def predict(example: Example) -> PlacePrediction:
-        colour = example.read()
-        return model.predict(_features(model, extractor, colour), colour)
+        return model.predict(example.read())
 
     for done, (example, prediction) in enumerate(
         zip(examples, prefetch(predict, examples), strict=True), 1
@@ -147,23 +135,19 @@ def _label_images(
 def _label_sequence(
     model: PlaceModel, sequence: sequences.Sequence, settings: LabellerSettings, advance: Advance
 ) -> Iterator[LabelledItem]:
-    extractor = FeatureExtractor(model.features)
     labeller = PlaceLabeller(model, settings)
 
-    def describe(index: int) -> tuple[Frame, Features]:
+    def predict(index: int) -> tuple[FrameInput, PlacePrediction]:
         frame = sequence[index]
-        return frame, _features(model, extractor, frame.colour)
+        return FrameInput(index, frame.stamp_s), model.predict(frame.colour)
 
-    for index, (frame, features) in enumerate(prefetch(describe, range(len(sequence)))):
-        tracking = Tracking(
-            index, frame.stamp_s, TrackingState.SKIPPED, 0, "none", None, None, False
-        )
-        labels = labeller.take(tracking, model.predict(features, frame.colour))
-        if index + 1 == len(sequence):
+    for frame, prediction in prefetch(predict, range(len(sequence))):
+        labels = labeller.take(frame, prediction)
+        if frame.index + 1 == len(sequence):
             labels += labeller.finish()
         for label in labels:
-            place = sequence.places.at(label.tracking.stamp_s) if sequence.places else None
-            advance(label.tracking.index + 1, len(sequence), label.label)
+            place = sequence.places.at(label.stamp_s) if sequence.places else None
+            advance(label.index + 1, len(sequence), label.label)
             yield LabelledItem(
-                f"{label.tracking.stamp_s:.6f}", label.label, label.score, place[0] if place else ""
+                f"{label.stamp_s:.6f}", label.label, label.score, place[0] if place else ""
             )

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import cast, get_args
 
 from roomgraph.app.console import Terminal
 from roomgraph.app.errors import AppError
 from roomgraph.app.settings import AppSettings
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.readers.registry import guess_layout, open_sequence
+from roomgraph.semantics.classifiers.registry import CLASSIFIERS
+from roomgraph.semantics.descriptors.registry import DESCRIPTORS
 from roomgraph.semantics.recognition.examples import Example, folder_examples, sequence_examples
 from roomgraph.semantics.recognition.model import PlaceModel
-from roomgraph.semantics.recognition.presets import Preset, preset
+from roomgraph.semantics.recognition.presets import PRESETS
 from roomgraph.semantics.recognition.training import train
 
 
@@ -34,35 +36,44 @@ def labelled_examples(root: Path) -> list[Example]:
     return sequence_examples(open_sequence(root, layout))
 
 
-def checked_preset(name: str) -> Preset:
-    """Return a preset's name.
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """What a place model is made of, by names; what is left out stays as the settings say."""
 
-    Raises
-    ------
-    AppError
-        There is no preset of that name.
-    """
-    if name not in get_args(Preset):
-        raise AppError(
-            "no such preset", where="--preset", expected=" or ".join(get_args(Preset)), got=name
-        )
-    return cast(Preset, name)
+    preset: str | None = None
+    descriptor: str | None = None
+    classifier: str | None = None
+
+    def __str__(self) -> str:
+        parts = [f"preset {self.preset or 'best'}"]
+        parts += [f"descriptor {self.descriptor}"] if self.descriptor else []
+        return ", ".join(parts + ([f"classifier {self.classifier}"] if self.classifier else []))
+
+    def applied(self, settings: AppSettings) -> AppSettings:
+        """Return settings with the training, and the features, that the names stand for.
+
+        Raises
+        ------
+        AppError
+            There is no preset, descriptor or classifier of that name.
+        """
+        chosen = {"descriptor": self.descriptor, "classifier": self.classifier}
+        _check("preset", self.preset, PRESETS)
+        _check("descriptor", self.descriptor, DESCRIPTORS)
+        _check("classifier", self.classifier, CLASSIFIERS)
+        slam, training = settings.slam, settings.semantics.training
+        if self.preset is not None:
+            preset = PRESETS[self.preset]
+            slam, training = slam.model_copy(update={"features": preset.features}), preset.training
+        named = {name: value for name, value in chosen.items() if value is not None}
+        training = training.model_copy(update=named)
+        semantics = settings.semantics.model_copy(update={"training": training})
+        return settings.model_copy(update={"slam": slam, "semantics": semantics})
 
 
-def with_preset(settings: AppSettings, name: str | None) -> AppSettings:
-    """Return settings with the training and the features of a named preset, if there is a name.
-
-    Raises
-    ------
-    AppError
-        There is no preset of that name.
-    """
-    if name is None:
-        return settings
-    training, features = preset(checked_preset(name))
-    slam = settings.slam.model_copy(update={"features": features})
-    semantics = settings.semantics.model_copy(update={"training": training})
-    return settings.model_copy(update={"slam": slam, "semantics": semantics})
+def _check(what: str, name: str | None, known: Collection[str]) -> None:
+    if name is not None and name not in known:
+        raise AppError(f"no such {what}", where=f"--{what}", expected=" or ".join(known), got=name)
 
 
 def train_model(data: Sequence[Path], settings: AppSettings, terminal: Terminal) -> PlaceModel:

@@ -11,7 +11,8 @@ from markupsafe import Markup
 
 from roomgraph.app.answers.explanations import place_reasons
 from roomgraph.app.report.charts import label_chart
-from roomgraph.app.storage.run_folder import UNREAD, RunFolder
+from roomgraph.app.storage.frames import UNREAD
+from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.app.storage.thumbnails import read_thumbnails
 from roomgraph.datasets.places import PlaceTruth
 from roomgraph.semantics.graph.graph import SemanticGraph

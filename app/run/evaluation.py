@@ -8,7 +8,8 @@ from typing import Any
 
 from roomgraph.app.errors import AppError
 from roomgraph.app.run.metrics import place_metrics, topology_metrics, trajectory_metrics
-from roomgraph.app.storage.run_folder import UNREAD, RunFolder
+from roomgraph.app.storage.frames import UNREAD
+from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.datasets import se3
 from roomgraph.datasets.files import replacing
 from roomgraph.datasets.floor_plan import FILE_NAME, read_floor_plan

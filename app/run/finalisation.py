@@ -132,7 +132,7 @@ class Finalisation:
 
     def _show(self, view: MapView, graph: SemanticGraph) -> None:
         with self.clock.stage("view"):
-            last = max(0, len(self.history.labels) - 1)
+            last = max(0, len(self.history.frames) - 1)
             self.viewer.show_map(last, lambda: view)
             self.viewer.show_graph(last, graph)
         with self.clock.stage("close"):
@@ -140,8 +140,8 @@ class Finalisation:
 
     def _write_frames(self) -> None:
         """Write what is known now of each frame, and which the run did not get to."""
-        labels = self.history.labels
-        self.recorder.rewrite_frames(labels, self.stamps_s[len(labels) :])
+        frames = self.history.frames
+        self.recorder.rewrite_frames(frames, self.stamps_s[len(frames) :])
 
     def _write_way(self, trajectory: Trajectory) -> None:
         """Write where the camera was, and what its keyframes saw."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.app.storage.frames import LabelledFrame
 from roomgraph.app.viewer.viewer import MapView
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.semantics.graph.graph import SemanticGraph
@@ -33,21 +34,23 @@ class FrameHistory:
 
     Attributes
     ----------
-    labels : list of FrameLabel
-        By frame, without their features.
+    frames : list of LabelledFrame
+        By frame, without their images.
     online : list of str
         By frame, the labels before the rooms were known.
     """
 
     def __init__(self, slam: Slam) -> None:
         self.slam = slam
-        self.labels: list[FrameLabel] = []
+        self.frames: list[LabelledFrame] = []
         self.online: list[str] = []
 
-    def add(self, label: FrameLabel) -> None:
-        """Keep the next frame's label."""
-        self.labels.append(replace(label, tracking=label.tracking.without_view()))
+    def add(self, tracking: Tracking, label: FrameLabel) -> LabelledFrame:
+        """Keep the next frame, and return what is kept."""
+        frame = LabelledFrame(tracking.without_view(), label)
+        self.frames.append(frame)
         self.online.append(label.label)
+        return frame
 
     def settle(self) -> list[Trajectory]:
         """Say at last of each frame whether its place in the world became known.
@@ -56,8 +59,8 @@ class FrameHistory:
         sub-map that never was are lost. Returns the ways through these, each in its own frame.
         """
         apart: dict[int, list[tuple[float, FloatArray]]] = {}
-        for i, label in enumerate(self.labels):
-            tracking, anchor = label.tracking, label.tracking.anchor
+        for i, frame in enumerate(self.frames):
+            tracking, anchor = frame.tracking, frame.tracking.anchor
             if anchor is None:
                 continue
             if self.slam.is_placed(anchor):
@@ -74,7 +77,7 @@ class FrameHistory:
                     tracking, state=TrackingState.LOST, inliers=0, method="none", anchor=None,
                     T_world_camera=None,
                 )  # fmt: skip
-            self.labels[i] = replace(label, tracking=tracking)
+            self.frames[i] = replace(frame, tracking=tracking)
         return [_trajectory_of(ways) for ways in apart.values()]
 
     def settle_labels(self, graph: SemanticGraph) -> None:
@@ -83,28 +86,33 @@ class FrameHistory:
         In a doorway an image shows the next room while the camera is still in this one. A frame
         whose label changes gets the place's score; what its image spoke for stays noted beside.
         """
-        way = _way_of(self.labels, self.slam.placed_poses)
+        way = _way_of(self.frames, self.slam.placed_poses)
         centres = np.array([T[:3, 3] for _, T in way]).reshape(-1, 3)
         for (tracking, _), place in zip(way, places_at(graph, centres), strict=True):
-            label = self.labels[tracking.index]
+            frame = self.frames[tracking.index]
+            label = frame.label
             room = graph.rooms[place] if place >= 0 else None
             if room is not None and room.label not in (UNKNOWN, label.label):
-                self.labels[tracking.index] = replace(
-                    label, label=room.label, label_id=room.label_id, score=room.score
-                )
+                named = replace(label, label=room.label, label_id=room.label_id, score=room.score)
+                self.frames[tracking.index] = replace(frame, label=named)
 
     def trajectory(self) -> Trajectory:
         """Return the poses of all frames that have a place in the world."""
-        way = _way_of(self.labels, self.slam.placed_poses)
+        way = _way_of(self.frames, self.slam.placed_poses)
         return _trajectory_of([(tracking.stamp_s, T) for tracking, T in way])
 
     def votes(self, keyframes: Sequence[int]) -> list[Vote]:
         """Return where frames that hang on one of `keyframes` were, and what they look like."""
         known = set(keyframes)
         return [
-            Vote(label.tracking.index, self.slam.pose_of(anchor)[:3, 3], label.label, label.score)
-            for label in self.labels
-            if (anchor := label.tracking.anchor) is not None and anchor.keyframe in known
+            Vote(
+                frame.tracking.index,
+                self.slam.pose_of(anchor)[:3, 3],
+                frame.label.label,
+                frame.label.score,
+            )
+            for frame in self.frames
+            if (anchor := frame.tracking.anchor) is not None and anchor.keyframe in known
         ]
 
     def map_view(self, points: PointMap, graph: SemanticGraph) -> MapView:
@@ -112,7 +120,7 @@ class FrameHistory:
 
         Each point has the label of the place it lies in, else of the keyframe that saw it.
         """
-        view = _view_of(points, self.labels, self.slam.placed_poses, self.slam.constraints)
+        view = _view_of(points, self.frames, self.slam.placed_poses, self.slam.constraints)
         if not graph.rooms:
             return view
         of_room = np.array([room.label_id for room in graph.rooms], dtype=np.uint16)
@@ -124,14 +132,14 @@ class FrameHistory:
 
         Without a place's room, what is seen through a door bears the label of this side of it.
         """
-        draw, labels = self.slam.map_sketcher(), list(self.labels)
+        draw, frames = self.slam.map_sketcher(), list(self.frames)
         T_world_keyframe, constraints = self.slam.placed_poses, self.slam.constraints
-        return lambda: _view_of(draw(), labels, T_world_keyframe, constraints)
+        return lambda: _view_of(draw(), frames, T_world_keyframe, constraints)
 
 
 def _view_of(
     points: PointMap,
-    labels: Sequence[FrameLabel],
+    frames: Sequence[LabelledFrame],
     T_world_keyframe: dict[int, FloatArray],
     constraints: Sequence[Constraint],
 ) -> MapView:
@@ -144,12 +152,12 @@ def _view_of(
     ]).reshape(-1, 2, 3)  # fmt: skip
     loops = np.array([constraint.is_loop for constraint in between], dtype=bool)
     label_ids = np.zeros(max(T_world_keyframe, default=0) + 1, dtype=np.uint16)
-    way = _way_of(labels, T_world_keyframe)
-    for label in labels:
-        tracking = label.tracking
+    way = _way_of(frames, T_world_keyframe)
+    for frame in frames:
+        tracking = frame.tracking
         anchor = tracking.anchor
         if tracking.is_keyframe and anchor is not None and anchor.keyframe in T_world_keyframe:
-            label_ids[anchor.keyframe] = label.label_id
+            label_ids[anchor.keyframe] = frame.label.label_id
     return MapView(
         points, label_ids[points.keyframes], tuple(T_world_keyframe),
         np.array(list(T_world_keyframe.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
@@ -159,13 +167,13 @@ def _view_of(
 
 
 def _way_of(
-    labels: Sequence[FrameLabel], T_world_keyframe: dict[int, FloatArray]
+    frames: Sequence[LabelledFrame], T_world_keyframe: dict[int, FloatArray]
 ) -> list[tuple[Tracking, FloatArray]]:
     """Return the frames that have a place in the world, and T_world_camera (4, 4) there."""
     return [
-        (label.tracking, T_world_keyframe[anchor.keyframe] @ anchor.T_keyframe_camera)
-        for label in labels
-        if (anchor := label.tracking.anchor) is not None and anchor.keyframe in T_world_keyframe
+        (frame.tracking, T_world_keyframe[anchor.keyframe] @ anchor.T_keyframe_camera)
+        for frame in frames
+        if (anchor := frame.tracking.anchor) is not None and anchor.keyframe in T_world_keyframe
     ]
 
 

@@ -46,8 +46,8 @@ def run_metrics(
     warnings: Iterable[str] = (),
 ) -> dict[str, Any]:
     """Return what `metrics.json` holds."""
-    labels = history.labels
-    states = Counter(label.tracking.state for label in labels)
+    trackings = [frame.tracking for frame in history.frames]
+    states = Counter(tracking.state for tracking in trackings)
     tracked = sum(count for state, count in states.items() if state.has_pose)
     seconds = clock.elapsed_s
     metrics: dict[str, Any] = {
@@ -57,12 +57,12 @@ def run_metrics(
         "frames_tracked": tracked,
         "frames_lost": states[TrackingState.LOST],
         "frames_skipped": len(sequence) - tracked - states[TrackingState.LOST],
-        "frames_by_depth": sum(label.tracking.method == "depth" for label in labels),
+        "frames_by_depth": sum(tracking.method == "depth" for tracking in trackings),
         "keyframes": len(slam.keyframes),
         "loop_closures": len(slam.mapper.closures),
         "path_length_m": round(trajectory.length_m, 4),
         "seconds_total": round(seconds, 3),
-        "fps": round(len(labels) / seconds, 2) if seconds else 0.0,
+        "fps": round(len(trackings) / seconds, 2) if seconds else 0.0,
         "stage_ms": clock.summary(),
         "peak_rss_mb": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
         "map_points": len(points),
@@ -76,8 +76,9 @@ def run_metrics(
     if sequence.ground_truth is not None:
         metrics |= trajectory_metrics(trajectory, sequence.ground_truth)
     if sequence.places is not None and len(graph.labels) > 1:
-        stamps = [label.tracking.stamp_s for label in labels]
-        frames = list(zip(stamps, (label.label for label in labels), strict=True))
+        stamps = [tracking.stamp_s for tracking in trackings]
+        found = (frame.label.label for frame in history.frames)
+        frames = list(zip(stamps, found, strict=True))
         metrics |= place_metrics(graph, frames, sequence.places)
         before = list(zip(stamps, history.online, strict=True))
         online = evaluate_frames(before, sequence.places).overall

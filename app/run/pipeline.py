@@ -27,6 +27,7 @@ from roomgraph.semantics.graph.topology import TopologicalMap
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.recognition.model import PlaceModel
 from roomgraph.semantics.temporal.labeller import FrameLabel, PlaceLabeller
+from roomgraph.semantics.temporal.look import FrameInput
 from roomgraph.slam.features.view import View
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import LoopClosure, Tracking, TrackingState
@@ -82,7 +83,9 @@ class Pipeline:
         self.labeller = PlaceLabeller(model, settings.semantics.labeller)
         self.topology = TopologicalMap(settings.semantics.topology, self.labels)
         self.history = FrameHistory(self.slam)
+        # Frames that the labeller has not been given, and that it has not labelled yet.
         self._unlabelled: deque[Tracking] = deque()
+        self._awaiting: deque[Tracking] = deque()
         self._map_gate = GrowthGate(settings.recording.map_every, GROWTH_PARTS)
         self._graph_gate = GrowthGate(1, GROWTH_PARTS)
         self._done = 0
@@ -130,23 +133,32 @@ class Pipeline:
         while len(self._unlabelled) > count:
             tracking = self._unlabelled[0]
             with self.clock.stage("label"):
-                # A model that describes images itself is shown the keyframes' only.
-                view = tracking.view if tracking.is_keyframe else None
-                colour = None if view is None else view.frame.colour
-                labels = self.labeller.process(tracking, colour)
+                labels = self.labeller.process(self._input_of(tracking))
             self._unlabelled.popleft()
+            self._awaiting.append(tracking.without_view())
             self._take(labels)
+
+    def _input_of(self, tracking: Tracking) -> FrameInput:
+        """Return what the labeller is shown: features where it uses them, keyframes' images."""
+        view, T = tracking.view, tracking.T_world_camera
+        return FrameInput(
+            tracking.index, tracking.stamp_s,
+            colour=view.frame.colour if view is not None and tracking.is_keyframe else None,
+            # Of a keyframe in the making they are waited for.
+            features=tracking.features if self.labeller.uses_features else None,
+            position_world=None if T is None else T[:3, 3],
+        )  # fmt: skip
 
     def _take(self, labels: list[FrameLabel]) -> None:
         """Follow the path with frames whose vote is complete, and write them down."""
         for label in labels:
+            tracking = self._awaiting.popleft()
             with self.clock.stage("graph"):
-                dropped = self.topology.update(label, self.slam.keyframe_poses)
-            self.history.add(label)
-            self.recorder.add_frame(label)
-            self.viewer.show_label(label.tracking.index, label.label_id, label.label, label.score)
+                dropped = self.topology.update(label, tracking.anchor, self.slam.keyframe_poses)
+            self.recorder.add_frame(self.history.add(tracking, label))
+            self.viewer.show_label(label.index, label.label_id, label.label, label.score)
             if dropped:
-                self._enter(label.tracking.index)
+                self._enter(label.index)
 
     def _enter(self, frame: int) -> None:
         """Show the graph with its new node if it is time, or if that lies in another place."""
@@ -239,8 +251,8 @@ class Pipeline:
 
     def _state(self, tracking: Tracking) -> str:
         said = [tracking.state.value, f"{len(self.slam.keyframe_poses)} keyframes"]
-        if self.labels.names[1:] and self.history.labels:
-            said.insert(1, self.history.labels[-1].label)
+        if self.labels.names[1:] and self.history.online:
+            said.insert(1, self.history.online[-1])
         return ", ".join(said)
 
 

@@ -124,8 +124,8 @@ def _keep_camera(
 
 
 def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:
-    """Describe frames as the model's training images were: features are computed only once."""
-    if model is None or model.features == settings.slam.features:
+    """Extract features as the model's training images were: features are computed only once."""
+    if model is None or model.features in (None, settings.slam.features):
         return settings
     logger.info("features as in the place model: %s", model.features)
     slam = settings.slam.model_copy(update={"features": model.features})

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.app.storage.cloud import write_cloud
+from roomgraph.app.storage.frames import FRAME_COLUMNS, LabelledFrame, unread_row
 from roomgraph.app.storage.occupancy import write_occupancy
-from roomgraph.app.storage.run_folder import FRAME_COLUMNS, UNREAD, RunFolder
+from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.app.storage.thumbnails import ThumbnailWriter
 from roomgraph.datasets.files import write_text
 from roomgraph.datasets.frame import Frame
@@ -21,7 +22,6 @@ from roomgraph.datasets.trajectory import Trajectory, write_tum
 from roomgraph.semantics.graph.files import write_graph_json, write_graphml
 from roomgraph.semantics.graph.graph import SemanticGraph
 from roomgraph.semantics.labels import LabelSpace, write_labels
-from roomgraph.semantics.temporal.labeller import FrameLabel
 from roomgraph.slam.backend.pose_graph import PoseGraph
 from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid
 from roomgraph.slam.reconstruction.point_map import PointMap
@@ -29,7 +29,6 @@ from roomgraph.slam.relocalisation.keyframe_database import (
     KeyframeDatabase,
     write_keyframe_database,
 )
-from roomgraph.slam.tracking import Tracking, TrackingState
 
 
 class Recorder:
@@ -42,24 +41,25 @@ class Recorder:
         self._rows.writerow(FRAME_COLUMNS)
         self._thumbnails = ThumbnailWriter(folder.thumbnails)
 
-    def add_frame(self, label: FrameLabel) -> None:
+    def add_frame(self, frame: LabelledFrame) -> None:
         """Write a frame's row, as known so far."""
-        self._rows.writerow(_row(label))
+        self._rows.writerow(frame.row)
         self._file.flush()
 
     def add_thumbnail(self, frame: Frame) -> None:
         """Keep a small picture of a keyframe."""
         self._thumbnails.add(frame.index, frame.colour)
 
-    def rewrite_frames(self, labels: Sequence[FrameLabel], unread_s: NDArray[np.float64]) -> None:
+    def rewrite_frames(
+        self, frames: Sequence[LabelledFrame], unread_s: NDArray[np.float64]
+    ) -> None:
         """Write all rows again as known at the end, with those that the run did not get to."""
         self._file.close()
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
         rows.writerow(FRAME_COLUMNS)
-        rows.writerows(_row(label) for label in labels)
-        skipped = TrackingState.SKIPPED.value
-        rows.writerows((f"{t:.6f}", skipped, 0, "", "unknown", "0.0000", UNREAD) for t in unread_s)
+        rows.writerows(frame.row for frame in frames)
+        rows.writerows(unread_row(float(stamp_s)) for stamp_s in unread_s)
         write_text(self.folder.frames, text.getvalue())
 
     def write_submap(self, number: int, trajectory: Trajectory) -> None:
@@ -108,15 +108,3 @@ class Recorder:
         """Close the open files."""
         self._file.close()
         self._thumbnails.close()
-
-
-def _row(label: FrameLabel) -> tuple[str | int, ...]:
-    tracking = label.tracking
-    return (
-        f"{tracking.stamp_s:.6f}", tracking.state.value, tracking.inliers,
-        _keyframe_of(tracking), label.label, f"{label.score:.4f}", tracking.method,
-    )  # fmt: skip
-
-
-def _keyframe_of(tracking: Tracking) -> int | str:
-    return "" if tracking.anchor is None else tracking.anchor.keyframe

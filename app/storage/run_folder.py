@@ -17,9 +17,6 @@ from roomgraph.datasets.trajectory import Trajectory, read_tum
 
 # Only a folder that holds all of these is a run, and may be overwritten; they are written first.
 RUN_MARKS = ("config.toml", "input.toml")
-# The method of frames that a run did not get to.
-UNREAD = "unread"
-FRAME_COLUMNS = ("timestamp", "state", "inliers", "keyframe", "label", "score", "method")
 
 
 @dataclass(frozen=True, slots=True)

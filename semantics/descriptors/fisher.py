@@ -1,167 +1,148 @@
-"""Fisher vectors: how an image's descriptors differ from what is usual around each visual word."""
+"""Descriptor ``fisher``: an image as a Fisher vector over dense descriptors."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
-from roomgraph.semantics.descriptors.dense import DenseDescriptors, DenseSettings
-from roomgraph.semantics.descriptors.neural_gas import NeuralGas
+from roomgraph.datasets.settings import Settings
+from roomgraph.semantics.descriptors.dense import (
+    DenseDescriptors,
+    DenseSettings,
+    describe_small,
+    small_grey,
+)
+from roomgraph.semantics.descriptors.descriptor import Description, Image, ImageDescriptor
+from roomgraph.semantics.descriptors.fisher_encoder import FisherEncoder
+from roomgraph.semantics.descriptors.words import Vectors, WordsDescriptor, WordsSettings
+from roomgraph.slam.features.extraction import Features, FeatureSettings
 
-FloatArray = NDArray[np.float32]
-
-# Arrays that make an encoder, by name.
-ARRAYS = ("mean", "projection", "position_scale", "means", "variances", "weights")
-# No descriptor of a flat image has a larger number than this.
-_FLAT = 1e-2
-# A posterior below this, relative to the largest one of its descriptor, counts as none.
-_NEGLIGIBLE = 1e-4
-# A word that no descriptor belongs to keeps a little width and weight.
-_SMALLEST_VARIANCE, _SMALLEST_WEIGHT = 1e-4, 1e-5
+# The encoder is learned from so many dense descriptors of an image, of so many images at most.
+_PER_IMAGE, _IMAGES = 200, 500
+# Before the names of the arrays of the words.
+_SIGNATURE = "signature_"
 
 
-class FisherEncoder:
-    """Turns dense descriptors into one vector (Perronnin, Sanchez and Mensink, 2010).
+class FisherSettings(Settings):
+    """How images are described as a whole."""
 
-    The visual words are Neural Gas prototypes, made into a mixture of Gaussians by a few steps of
-    expectation maximisation. A descriptor belongs to words by its posterior; the vector holds,
-    for each word, the mean deviation of the image's descriptors from the word's centre and width.
-    The position in the image is part of each descriptor, so the layout of a room counts (Sanchez
-    et al., 2012, in place of a spatial pyramid). Root and length 1 at the end.
+    n_words: int = Field(64, ge=2, le=4096, description="Gaussians, started from Neural Gas words")
+    n_components: int = Field(64, ge=2, le=128, description="principal axes of the descriptors")
+    em_steps: int = Field(10, ge=0, le=1000, description="steps of expectation maximisation")
+    dense: DenseSettings = DenseSettings()
+    signature: WordsSettings = WordsSettings()
 
-    Parameters
-    ----------
-    settings : DenseSettings
-        How images are described.
-    arrays : mapping
-        ``mean`` (128,) and ``projection`` (128, D) on principal axes of equal variance,
-        ``position_scale`` (2,), and the words' ``means`` and ``variances`` (K, D + 2) and
-        ``weights`` (K,).
+
+@dataclass(frozen=True, slots=True)
+class PreparedImage:
+    """A small grey image (h, w) uint8, and the local descriptors (N, D), None where too few."""
+
+    small: NDArray[np.uint8]
+    descriptors: Vectors | None
+
+
+class FisherDescriptor(ImageDescriptor):
+    """Fisher vectors of dense RootSIFT (see `FisherEncoder`), compared by visual words.
+
+    What a classifier sees is the Fisher vector of the whole image. Views of a place are compared
+    by a histogram of visual words of local features, as in the paper: its threshold is made for
+    those. Only an image that comes with its features has such a signature; they are not
+    extracted for it.
     """
 
-    def __init__(self, settings: DenseSettings, arrays: Mapping[str, NDArray[Any]]) -> None:
-        self.settings = settings
-        self.arrays = {name: np.asarray(arrays[name], dtype=np.float32) for name in ARRAYS}
-        self._prepare()
+    name = "fisher"
+    settings_class = FisherSettings
+    uses_features = True
 
-    @classmethod
-    def fit(
-        cls,
-        sample: DenseDescriptors,
-        settings: DenseSettings,
-        n_words: int,
-        n_components: int,
-        n_epochs: int,
-        random: np.random.Generator,
-        em_steps: int = 10,
-    ) -> Self:
-        """Learn axes and words from a sample of many images' descriptors."""
-        arrays = _axes(sample, min(n_components, sample.descriptors.shape[1]))
-        points = _project(sample, arrays)
-        gas = NeuralGas(n_words, n_epochs, random_state=random).fit(points)
-        arrays |= _mixture(points, gas, em_steps)
-        return cls(settings, arrays)
+    settings: FisherSettings
+
+    def __init__(
+        self, settings: Settings | None = None, features: FeatureSettings | None = None
+    ) -> None:
+        super().__init__(settings, features)
+        self._words = WordsDescriptor(self.settings.signature, self.features)
 
     @property
     def length(self) -> int:
         """Numbers of a Fisher vector."""
-        return 2 * self.arrays["means"].size
+        return self.encoder_.length
 
     @property
-    def n_words(self) -> int:
-        """Number of visual words."""
-        return len(self.arrays["weights"])
+    def signature_length(self) -> int:
+        """Number of visual words of the signature."""
+        return self._words.length
 
-    def encode(self, image: DenseDescriptors) -> FloatArray:
-        """Return the Fisher vector (length,) of an image, of length 1; zeros if all of it is flat.
+    def prepare(
+        self, colour: Image | None, features: Features | None = None, to_fit: bool = False
+    ) -> PreparedImage | None:
+        """Return a small grey image and the local descriptors.
 
-        Eq. 16 to 18 of Sanchez et al. (2013), "Image classification with the Fisher vector".
+        To be learned from, an image must have enough of these.
         """
-        if not len(image) or float(np.abs(image.descriptors).max()) < _FLAT:
-            return np.zeros(self.length, dtype=np.float32)
-        points = _project(image, self.arrays)
-        posterior = self.posteriors(points)
-        means, weights = self.arrays["means"], self.arrays["weights"]
-        s0 = posterior.sum(axis=0)[:, None]
-        s1 = posterior.T @ points
-        s2 = posterior.T @ (points * points)
-        root_weight = np.sqrt(weights)[:, None]
-        by_mean = (s1 - s0 * means) / self._deviation / root_weight
-        by_width = s2 - 2 * s1 * means + s0 * (means * means - self.arrays["variances"])
-        by_width /= self.arrays["variances"] * root_weight * np.float32(np.sqrt(2))
-        vector = np.concatenate([by_mean.ravel(), by_width.ravel()])
-        vector = np.sign(vector) * np.sqrt(np.abs(vector))
-        return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-12), dtype=np.float32)
+        if colour is None:
+            return None
+        known = features is not None or to_fit
+        descriptors = self._words.prepare(colour, features) if known else None
+        if to_fit and descriptors is None:
+            return None
+        return PreparedImage(small_grey(colour, self.settings.dense), descriptors)
 
-    def posteriors(self, points: FloatArray) -> FloatArray:
-        """Return how much each of the projected descriptors (N, D + 2) belongs to each word."""
-        return _softmax(points @ self._linear + (points * points) @ self._square + self._constant)
+    def fit(self, prepared: Sequence[PreparedImage], random: np.random.Generator) -> Self:
+        """Learn the words of the signature, then axes and Gaussians of the dense descriptors."""
+        self._words.fit([p.descriptors for p in prepared if p.descriptors is not None], random)
+        settings = self.settings
+        self.encoder_ = FisherEncoder.fit(
+            self._dense_sample(prepared, random), settings.dense, n_words=settings.n_words,
+            n_components=settings.n_components, n_epochs=settings.signature.n_epochs,
+            random=random, em_steps=settings.em_steps,
+        )  # fmt: skip
+        return self
 
-    def project(self, image: DenseDescriptors) -> FloatArray:
-        """Return descriptors with positions on the encoder's axes (N, D + 2)."""
-        return _project(image, self.arrays)
+    def describe(self, prepared: PreparedImage) -> Description | None:
+        """Return the Fisher vector and, of an image with features, its histogram of words."""
+        vector = self.encoder_.encode(describe_small(prepared.small, self.settings.dense))
+        if not vector.any():
+            return None
+        if prepared.descriptors is None:
+            return Description(vector, np.zeros(self.signature_length))
+        return Description(vector, self._words.describe(prepared.descriptors).signature)
 
-    def _prepare(self) -> None:
-        means, variances = self.arrays["means"], self.arrays["variances"]
-        self._deviation = np.sqrt(variances)
-        self._linear, self._square, self._constant = _log_terms(
-            means, variances, self.arrays["weights"]
-        )
+    def words(self, shares: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the sums over each word's numbers: of its mean and of its width, several each."""
+        by_word = shares.reshape(2, self.encoder_.n_words, -1)
+        return np.asarray(by_word.sum(axis=(0, 2)))
 
+    def summary(self) -> dict[str, Any]:
+        """Return what the words of the signature were learned from."""
+        return self._words.summary()
 
-def _axes(sample: DenseDescriptors, n_components: int) -> dict[str, FloatArray]:
-    """Return mean and principal axes of the descriptors, and the scale of the positions."""
-    mean = sample.descriptors.mean(axis=0)
-    centred = sample.descriptors - mean
-    values, vectors = np.linalg.eigh(centred.T @ centred / len(centred))
-    order = np.argsort(-values)[:n_components]
-    scale = 1 / np.sqrt(np.maximum(values[order], 1e-8))
-    spread = np.maximum(sample.positions.std(axis=0), 1e-6)
-    return {
-        "mean": mean,
-        "projection": np.asarray(vectors[:, order] * scale, dtype=np.float32),
-        "position_scale": np.asarray(1 / spread, dtype=np.float32),
-    }
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return the encoder's arrays and those of the words."""
+        words = {_SIGNATURE + name: array for name, array in self._words.arrays().items()}
+        return {**self.encoder_.arrays, **words}
 
+    def with_arrays(self, arrays: Mapping[str, NDArray[Any]]) -> Self:
+        """Take over the encoder's arrays and those of the words."""
+        own = {n.removeprefix(_SIGNATURE): a for n, a in arrays.items() if n.startswith(_SIGNATURE)}
+        self._words.with_arrays(own)
+        self.encoder_ = FisherEncoder(self.settings.dense, arrays)
+        return self
 
-def _project(image: DenseDescriptors, arrays: Mapping[str, FloatArray]) -> FloatArray:
-    appearance = (image.descriptors - arrays["mean"]) @ arrays["projection"]
-    return np.hstack([appearance, image.positions * arrays["position_scale"]])
-
-
-def _mixture(points: FloatArray, gas: NeuralGas, steps: int) -> dict[str, FloatArray]:
-    """Return the mixture of diagonal Gaussians that starts from the gas's words."""
-    nearest = gas.predict(points)
-    posterior = np.zeros((len(points), len(gas.prototypes_)), dtype=np.float32)
-    posterior[np.arange(len(points)), nearest] = 1
-    squares = points * points
-    for step in range(steps + 1):
-        mass = np.maximum(posterior.sum(axis=0), np.float32(1e-3))[:, None]
-        means = posterior.T @ points / mass
-        variances = np.maximum(posterior.T @ squares / mass - means**2, _SMALLEST_VARIANCE)
-        weights = np.maximum(mass[:, 0] / len(points), _SMALLEST_WEIGHT)
-        if step < steps:
-            linear, square, constant = _log_terms(means, variances, weights)
-            posterior = _softmax(points @ linear + squares @ square + constant)
-    return {"means": means, "variances": variances, "weights": weights}
-
-
-def _log_terms(
-    means: FloatArray, variances: FloatArray, weights: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the terms, linear, square and constant, of the words' log densities."""
-    constant = np.log(weights) - 0.5 * (means**2 / variances + np.log(variances)).sum(axis=1)
-    return (means / variances).T.copy(), (-0.5 / variances).T.copy(), constant
-
-
-def _softmax(scores: NDArray[Any]) -> FloatArray:
-    scores -= scores.max(axis=1, keepdims=True)
-    np.exp(scores, out=scores)
-    # What is next to nothing is left out (Sanchez et al., 2013): numbers near the
-    # smallest that float32 holds make products a dozen times slower.
-    scores[scores < _NEGLIGIBLE] = 0
-    scores /= scores.sum(axis=1, keepdims=True)
-    return np.asarray(scores, dtype=np.float32)
+    def _dense_sample(
+        self, prepared: Sequence[PreparedImage], random: np.random.Generator
+    ) -> DenseDescriptors:
+        """Return a few dense descriptors of each of some images, evenly spread."""
+        chosen = np.linspace(0, len(prepared) - 1, min(_IMAGES, len(prepared))).astype(int)
+        maximum = max(1, self.settings.signature.max_descriptors // len(chosen))
+        descriptors, positions = [], []
+        for image in (prepared[i] for i in chosen):
+            found = describe_small(image.small, self.settings.dense)
+            rows = random.integers(0, len(found), min(_PER_IMAGE, maximum))
+            descriptors.append(found.descriptors[rows])
+            positions.append(found.positions[rows])
+        return DenseDescriptors(np.vstack(descriptors), np.vstack(positions))

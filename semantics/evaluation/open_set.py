@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
 from roomgraph.semantics.evaluation.splits import EvaluationSet
 
 Progress = Callable[[int, int], None]
@@ -46,7 +46,7 @@ def evaluate_open_set(evaluation_set: EvaluationSet, progress: Progress) -> Open
     for done, name in enumerate(names, 1):
         test = evaluation_set.buildings == name
         fitted = _calibrated(evaluation_set, ~test)
-        decisions = _decisions(fitted, evaluation_set.vectors[test])
+        decisions = fitted.decisions(evaluation_set.vectors[test])
         columns = [classes.index(str(c)) for c in fitted.classes_]
         found = np.zeros((int(test.sum()), len(classes)))
         found[:, columns] = fitted.probabilities(decisions)
@@ -55,7 +55,7 @@ def evaluate_open_set(evaluation_set: EvaluationSet, progress: Progress) -> Open
     for i, kind in enumerate(classes):
         test = evaluation_set.buildings == names[i % len(names)]
         fitted = _calibrated(evaluation_set, ~test & (evaluation_set.labels != kind))
-        found = fitted.familiarity(_decisions(fitted, evaluation_set.vectors[test]))
+        found = fitted.familiarity(fitted.decisions(evaluation_set.vectors[test]))
         is_novel = evaluation_set.labels[test] == kind
         novel[kind], known[kind] = found[is_novel], found[~is_novel]
         progress(len(names) + i + 1, total)
@@ -66,10 +66,6 @@ def evaluate_open_set(evaluation_set: EvaluationSet, progress: Progress) -> Open
 
 def _calibrated(evaluation_set: EvaluationSet, train: NDArray[np.bool_]) -> PlaceClassifier:
     buildings = evaluation_set.buildings[train].tolist()
-    return PlaceClassifier(evaluation_set.C, random_state=0).fit(
+    return evaluation_set.classifier.clone(random_state=0).fit(
         evaluation_set.vectors[train], evaluation_set.labels[train], buildings
     )
-
-
-def _decisions(fitted: PlaceClassifier, X: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(X @ fitted.coef_.T + fitted.intercept_)

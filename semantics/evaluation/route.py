@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from roomgraph.semantics.evaluation.splits import SplitResult
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
-from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
-from roomgraph.slam.tracking import Tracking, TrackingState
+from roomgraph.semantics.temporal.labeller import PlaceLabeller
+from roomgraph.semantics.temporal.look import FrameInput
+from roomgraph.semantics.temporal.settings import LabellerSettings
 
 NODE_M = 1.0
 
@@ -21,6 +22,7 @@ def route_results(
     predictions: Sequence[PlacePrediction],
     truth: Sequence[str],
     positions: NDArray[np.float64],
+    settings: LabellerSettings,
 ) -> list[SplitResult]:
     """Return how right the labels of frames and nodes are, with and without neighbours.
 
@@ -34,13 +36,15 @@ def route_results(
         The true label of each.
     positions : (N, 3) float64
         Where the frames were taken, metres.
+    settings : LabellerSettings
+        Which frames decide on a label; every temporal model is tried.
     """
     known = np.array(truth)
     alone = np.array([prediction.label for prediction in predictions])
-    voted = _labelled(model, predictions, positions, "vote")
-    filtered = _labelled(model, predictions, positions, "filter")
+    voted = _labelled(model, predictions, positions, settings, "vote")
+    filtered = _labelled(model, predictions, positions, settings, "filter")
     nodes = nodes_along(positions)
-    smoothed = _smoothed(model, predictions, positions, nodes)
+    smoothed = _smoothed(model, predictions, positions, nodes, settings.change_m)
     rows = {
         "frames alone": (known, alone),
         "frames, vote": (known, voted),
@@ -64,15 +68,13 @@ def _labelled(
     model: PlaceModel,
     predictions: Sequence[PlacePrediction],
     positions: NDArray[np.float64],
+    settings: LabellerSettings,
     method: str,
 ) -> NDArray[np.str_]:
-    labeller = PlaceLabeller(model, LabellerSettings.model_validate({"method": method}))
+    labeller = PlaceLabeller(model, settings.model_copy(update={"method": method}))
     found = []
     for i, (prediction, position) in enumerate(zip(predictions, positions, strict=True)):
-        T = np.eye(4)
-        T[:3, 3] = position
-        tracking = Tracking(i, float(i), TrackingState.OK, 0, "none", None, T, False)
-        found += labeller.take(tracking, prediction)
+        found += labeller.take(FrameInput(i, float(i), position_world=position), prediction)
     return np.array([label.label for label in [*found, *labeller.finish()]])
 
 
@@ -81,6 +83,7 @@ def _smoothed(
     predictions: Sequence[PlacePrediction],
     positions: NDArray[np.float64],
     nodes: NDArray[np.intp],
+    change_m: float,
 ) -> NDArray[np.str_]:
     """Return the labels of nodes from the mean looks of their frames, given their neighbours."""
     parts = np.split(np.array([p.probabilities[1:] for p in predictions]), nodes[1:])
@@ -92,6 +95,6 @@ def _smoothed(
             edges.append((int(lengths.argmin()), i, float(lengths.min())))
     beliefs = propagate(
         np.array([part.mean(axis=0) for part in parts]), edges, model.transitions,
-        LabellerSettings().change_m,
+        change_m,
     )  # fmt: skip
     return np.asarray(np.array(model.labels.names[1:])[beliefs.argmax(axis=1)])

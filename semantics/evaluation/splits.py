@@ -9,8 +9,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
 from roomgraph.semantics.classifiers.folds import assign_folds
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
 
 N_FOLDS = 10
 # The row of images judged by the room that most of them shows, held out with it.
@@ -33,8 +33,8 @@ class EvaluationSet:
         What the classifier sees.
     labels, visits, rooms, buildings, lights : (N,) str
         The kind of place, the visit, the very room, the building and its light.
-    C : float
-        Penalty of the SVM.
+    classifier : PlaceClassifier
+        What is trained, unfitted.
     order, stretches : (N,) int
         Number of the image along its walk, and of the stretch of the walk that it is from, where
         the same walk was taken in every light; else empty.
@@ -52,7 +52,7 @@ class EvaluationSet:
     rooms: NDArray[np.str_]
     buildings: NDArray[np.str_]
     lights: NDArray[np.str_]
-    C: float
+    classifier: PlaceClassifier
     order: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     stretches: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     doorway_m: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
@@ -101,7 +101,7 @@ def run_split(
     evaluation_set: EvaluationSet, row: str, train: NDArray[np.bool_], test: NDArray[np.bool_]
 ) -> SplitResult:
     """Learn from some images of the evaluation set and label others."""
-    classifier = PlaceClassifier(evaluation_set.C, n_folds=1).fit(
+    classifier = evaluation_set.classifier.clone(n_folds=1).fit(
         evaluation_set.vectors[train], evaluation_set.labels[train]
     )
     found = classifier.predict(evaluation_set.vectors[test]).astype(str)

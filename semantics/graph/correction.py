@@ -1,20 +1,16 @@
-"""What a person says of a place, taken into the graph and into the model."""
+"""What a person says of a place, taken into the graph."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.graph.graph import SemanticGraph
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
-from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
 from roomgraph.semantics.recognition.transitions import count_transitions
 
 
@@ -89,53 +85,6 @@ def correct(graph: SemanticGraph, place: str, label: str, change_m: float) -> Co
     )
 
 
-def learn_more(
-    model: PlaceModel, vectors: Sequence[NDArray[Any]], label: str, group: str, seed: int = 0
-) -> PlaceModel:
-    """Return a model that knows more images of a label, which may be new to it.
-
-    The words stay as they are; the machines are learned again from the exemplars that the model
-    keeps and the new ones.
-
-    Parameters
-    ----------
-    model : PlaceModel
-        With exemplars.
-    vectors : sequence of (L,) arrays
-        What its classifier sees of the new images, see `PlaceModel.vector`.
-    label, group : str
-        What they show, and what they were seen together with.
-    seed : int
-        Of the folds.
-
-    Raises
-    ------
-    SemanticsError
-        The model has no exemplars, or there are no new images.
-    """
-    if model.exemplars is None:
-        raise SemanticsError(
-            "the model keeps no exemplars", expected="a model trained with exemplars above 0",
-            hint="train it again",
-        )  # fmt: skip
-    if not len(vectors):
-        raise SemanticsError("nothing to learn from", expected="an image of the place")
-    count = len(vectors)
-    exemplars = Exemplars(
-        np.vstack([model.exemplars.vectors, np.asarray(vectors, dtype=np.float16)]),
-        np.concatenate([model.exemplars.labels, np.repeat(label, count)]),
-        np.concatenate([model.exemplars.groups, np.repeat(group, count)]),
-    )
-    classifier = PlaceClassifier(model.classifier.C, random_state=seed).fit(
-        exemplars.vectors, exemplars.labels, exemplars.groups.tolist()
-    )
-    labels = model.labels.with_label(label)
-    return replace(
-        model, labels=labels, classifier=classifier, exemplars=exemplars,
-        transitions=_extended(model.transitions, len(labels) - 1),
-    )  # fmt: skip
-
-
 def _neighbours(
     graph: SemanticGraph, labels: LabelSpace, label: str, told: list[int], change_m: float
 ) -> dict[int, float]:
@@ -177,13 +126,3 @@ def _free_name(graph: SemanticGraph, place: str, label: str) -> str:
 def _renamed(doorway: Any, place: str, name: str) -> Any:
     places = tuple(name if p == place else p for p in doorway.places)
     return replace(doorway, places=places)
-
-
-def _extended(transitions: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Return transitions with a kind more, if there is one: to and from it evenly."""
-    if len(transitions) == count:
-        return transitions
-    table = np.full((count, count), 1.0 / max(1, count - 1))
-    table[-1, -1] = 0.0
-    table[:-1, :-1] = transitions * (count - 2) / max(1, count - 1)
-    return table

@@ -37,7 +37,7 @@ def write_graph_json(path: Path, graph: SemanticGraph) -> None:
         "graph": _label_space(graph.labels),
         "nodes": [
             {**_node(node), "position": node.position_world.round(6).tolist(),
-             "histogram": node.histogram.round(6).tolist(), "evidence": node.evidence.content()}
+             "histogram": node.signature.round(6).tolist(), "evidence": node.evidence.content()}
             for node in graph.nodes
         ],
         "links": [
@@ -78,7 +78,7 @@ def write_graphml(path: Path, graph: SemanticGraph) -> None:
     )  # fmt: skip
     for node in graph.nodes:
         x, y, z = (float(value) for value in node.position_world)
-        histogram = " ".join(f"{value:.6g}" for value in node.histogram)
+        histogram = " ".join(f"{value:.6g}" for value in node.signature)
         values = _node(node)
         evidence = json.dumps(node.evidence.content())
         drawn.add_node(

@@ -42,8 +42,8 @@ class GraphNode:
         The very place (``office2``).
     score : float
         Of the label, 0 to 1.
-    histogram : (Q,) float64
-        Visual memory: the frame's appearance, of unit length; empty without a model.
+    signature : (S,) float64
+        Visual memory: what views are compared by, of unit length; empty without a model.
     evidence : Evidence
         What spoke for the label that the node was dropped with. The place that it turned out to
         lie in may have given it another.
@@ -57,7 +57,7 @@ class GraphNode:
     label_id: int
     place: str
     score: float
-    histogram: NDArray[np.float64]
+    signature: NDArray[np.float64]
     evidence: Evidence = field(default_factory=Evidence)
 
 

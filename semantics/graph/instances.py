@@ -23,7 +23,7 @@ class InstanceSettings(Settings):
     """
 
     min_difference: float = Field(
-        0.4, ge=0, le=1.5, description="L2 distance of unit histograms above which views differ"
+        0.4, ge=0, le=1.5, description="L2 distance of unit signatures above which views differ"
     )
     min_distance_m: float = Field(
         5.0, ge=0, description="metres from all nodes of a place beyond which it is another one"
@@ -38,12 +38,12 @@ class Observation:
     ----------
     position : (3,) float64
         World, metres.
-    histogram : (Q,) float64
-        Appearance, of unit length.
+    signature : (S,) float64
+        What views are compared by, of unit length.
     """
 
     position: NDArray[np.float64]
-    histogram: NDArray[np.float64]
+    signature: NDArray[np.float64]
 
 
 @dataclass(slots=True)
@@ -104,7 +104,7 @@ class PlaceNames:
         stay = self._find(distances, stays, follows_last)
         if not self._stays[stay].is_settled:
             others = [i for i, other in enumerate(stays) if other != stay]
-            differences = _lengths([known[i].histogram - here.histogram for i in others])
+            differences = _lengths([known[i].signature - here.signature for i in others])
             names = [self.name(stays[i]) for i in others]
             self._stays[stay] = self._judge(label, distances[others], differences, names)
         return stay

@@ -49,7 +49,7 @@ class _Node:
     label_id: int
     stay: int | None
     score: float
-    histogram: NDArray[np.float64]
+    signature: NDArray[np.float64]
     evidence: Evidence
 
 
@@ -57,7 +57,7 @@ class TopologicalMap:
     """Grows a graph along the path (paper, section 3.3).
 
     A node is dropped at the first frame with a pose and after each further metre travelled. It
-    keeps the frame's voted label, its histogram as visual memory, and the anchor of its pose:
+    keeps the frame's label, its signature as visual memory, and the anchor of its pose:
     positions are worked out from the keyframes' poses when they are asked for, so that nodes move
     with the map when a loop closes.
 
@@ -84,13 +84,17 @@ class TopologicalMap:
     def __len__(self) -> int:
         return len(self._nodes)
 
-    def update(self, frame_label: FrameLabel, T_world_keyframe: Poses) -> bool:
+    def update(
+        self, frame_label: FrameLabel, anchor: Anchor | None, T_world_keyframe: Poses
+    ) -> bool:
         """Follow the path by one frame; return whether a node was dropped. Lost frames don't count.
 
         Parameters
         ----------
         frame_label : FrameLabel
-            The frame with its label.
+            The frame's label.
+        anchor : Anchor or None
+            Its pose; None where it was lost.
         T_world_keyframe : mapping of int to (4, 4) float64
             Current pose of each keyframe.
 
@@ -99,7 +103,6 @@ class TopologicalMap:
         SemanticsError
             A keyframe that a node or the frame is anchored to has no pose.
         """
-        anchor = frame_label.tracking.anchor
         if anchor is None:
             return False
         if self._waypoint is not None:
@@ -137,7 +140,7 @@ class TopologicalMap:
         nodes = tuple(
             GraphNode(
                 i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
-                node.label, node.label_id, self._place(node), node.score, node.histogram,
+                node.label, node.label_id, self._place(node), node.score, node.signature,
                 node.evidence,
             )
             for i, node in enumerate(kept)
@@ -150,14 +153,19 @@ class TopologicalMap:
         self._nodes = [node for node in self._nodes if node.anchor.keyframe in keyframes]
 
     def _drop(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> None:
-        tracking = frame_label.tracking
         self._nodes.append(
             _Node(
-                tracking.index, tracking.stamp_s, anchor, frame_label.label, frame_label.label_id,
-                self._stay(frame_label, anchor, T_world_keyframe),
-                frame_label.score, frame_label.histogram, Evidence.of(frame_label, self.labels),
+                frame=frame_label.index,
+                stamp_s=frame_label.stamp_s,
+                anchor=anchor,
+                label=frame_label.label,
+                label_id=frame_label.label_id,
+                stay=self._stay(frame_label, anchor, T_world_keyframe),
+                score=frame_label.score,
+                signature=frame_label.signature,
+                evidence=Evidence.of(frame_label, self.labels),
             )
-        )  # fmt: skip
+        )
 
     def _stay(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> int | None:
         label = frame_label.label
@@ -166,9 +174,9 @@ class TopologicalMap:
         known = [node for node in self._nodes if node.label == label]
         return self._names.assign(
             label,
-            Observation(_position(anchor, T_world_keyframe), frame_label.histogram),
+            Observation(_position(anchor, T_world_keyframe), frame_label.signature),
             [
-                Observation(_position(node.anchor, T_world_keyframe), node.histogram)
+                Observation(_position(node.anchor, T_world_keyframe), node.signature)
                 for node in known
             ],
             [node.stay for node in known if node.stay is not None],

@@ -6,28 +6,30 @@ import os
 import shutil
 import zipfile
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
-from roomgraph.semantics.descriptors.dense import DenseSettings
-from roomgraph.semantics.descriptors.fisher import ARRAYS as ENCODER_ARRAYS
-from roomgraph.semantics.descriptors.fisher import FisherEncoder
-from roomgraph.semantics.descriptors.histogram import BagOfFeatures, Normalisation
-from roomgraph.semantics.descriptors.neural_gas import NeuralGas
+from roomgraph.datasets.files import replace_folder, replacing
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
+from roomgraph.semantics.classifiers.registry import CLASSIFIERS
+from roomgraph.semantics.descriptors.descriptor import ImageDescriptor
+from roomgraph.semantics.descriptors.registry import DESCRIPTORS
 from roomgraph.semantics.documents import read_document, write_document
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
+from roomgraph.semantics.recognition.model_versions import from_version_2
 from roomgraph.slam.features.extraction import FeatureSettings
 
-SCHEMA, VERSION = "roomgraph/place-model", 2
+SCHEMA, VERSION = "roomgraph/place-model", 3
 DOCUMENT, ARRAYS = "model.json", "arrays.npz"
-# Of the encoder's arrays, which lie beside the others.
-PREFIX = "dense_"
+# Names of arrays are those of a part and of its own arrays.
+_DESCRIPTOR, _CLASSIFIER, _EXEMPLARS = "descriptor.", "classifier.", "exemplars."
+
+Arrays = dict[str, NDArray[Any]]
 
 
 def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
@@ -44,10 +46,9 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
     temporary.mkdir()
     try:
         write_document(temporary / DOCUMENT, SCHEMA, VERSION, _content(model))
-        np.savez_compressed(temporary / ARRAYS, allow_pickle=False, **_arrays(model))
-        if path.exists():
-            shutil.rmtree(path)
-        temporary.rename(path)
+        with replacing(temporary / ARRAYS) as arrays, arrays.open("wb") as file:
+            np.savez_compressed(file, allow_pickle=False, **_arrays(model))
+        replace_folder(temporary, path)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
 
@@ -72,7 +73,7 @@ def refuse_other(path: Path, overwrite: bool) -> None:
 
 
 def load_model(path: Path) -> PlaceModel:
-    """Read a model that `save_model` wrote.
+    """Read a model that `save_model` wrote, also one of version 2.
 
     Raises
     ------
@@ -84,9 +85,11 @@ def load_model(path: Path) -> PlaceModel:
             "not a place model", where=path, expected=f"a folder with {DOCUMENT} and {ARRAYS}",
             hint="train one with: roomgraph train DATA -o MODEL",
         )  # fmt: skip
-    content = read_document(path / DOCUMENT, SCHEMA, VERSION)
+    content = read_document(path / DOCUMENT, SCHEMA, VERSION, 2)
     arrays = _read_arrays(path / ARRAYS)
     try:
+        if content["version"] == 2:
+            content, arrays = from_version_2(content, arrays)
         return _build(content, arrays)
     except (KeyError, TypeError, ValueError, ValidationError) as error:
         raise SemanticsError(
@@ -96,99 +99,99 @@ def load_model(path: Path) -> PlaceModel:
 
 
 def _content(model: PlaceModel) -> dict[str, Any]:
+    descriptor, classifier, features = model.descriptor, model.classifier, model.features
+    names = type(classifier).settings_class.model_fields
     return {
         "labels": list(model.labels.names),
         "colours": [list(colour) for colour in model.labels.colours],
-        "classes": [str(name) for name in model.classifier.classes_],
-        "features": model.features.model_dump(),
-        "normalisation": model.normalisation,
-        "min_features": model.min_features,
+        "descriptor": {
+            "name": descriptor.name,
+            "settings": descriptor.settings.model_dump(),
+            "features": None if features is None else features.model_dump(),
+        },
+        "classifier": {
+            "name": classifier.name,
+            "settings": {name: getattr(classifier, name) for name in names},
+            "classes": [str(name) for name in classifier.classes_],
+        },
         "training": {k: None if v != v else v for k, v in model.training.items()},
-        "dense": None if model.encoder is None else model.encoder.settings.model_dump(),
         "reject_below": model.reject_below,
     }
 
 
-def _arrays(model: PlaceModel) -> dict[str, NDArray[Any]]:
-    arrays = {
-        "prototypes": model.bag.vocabulary.prototypes_,
-        "coef": model.classifier.coef_,
-        "intercept": model.classifier.intercept_,
-        "sigmoid": model.classifier.sigmoid_,
-        "scaling": model.classifier.scaling_,
-        "transitions": model.transitions,
-    }
+def _arrays(model: PlaceModel) -> Arrays:
+    arrays = {_DESCRIPTOR + name: array for name, array in model.descriptor.arrays().items()}
+    arrays |= {_CLASSIFIER + name: array for name, array in model.classifier.arrays().items()}
     if model.exemplars is not None:
-        arrays["lesson_vectors"] = model.exemplars.vectors
-        arrays["lesson_labels"] = model.exemplars.labels
-        arrays["lesson_groups"] = model.exemplars.groups
-    if model.encoder is not None:
-        arrays |= {PREFIX + name: array for name, array in model.encoder.arrays.items()}
-    return arrays
+        for name in ("vectors", "labels", "groups"):
+            arrays[_EXEMPLARS + name] = getattr(model.exemplars, name)
+    return arrays | {"transitions": model.transitions}
 
 
-def _build(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PlaceModel:
-    classes, prototypes = content["classes"], arrays["prototypes"]
-    encoder = _encoder(content, arrays)
+def _build(content: dict[str, Any], arrays: Arrays) -> PlaceModel:
+    for name, array in arrays.items():
+        if array.dtype.kind == "f" and not np.isfinite(array).all():
+            raise ValueError(f"{name} is not finite")
     labels = LabelSpace(
         tuple(content["labels"]), tuple((r, g, b) for r, g, b in content["colours"])
     )
-    _check_shapes(arrays, len(classes), len(prototypes) if encoder is None else encoder.length)
-    if content["normalisation"] not in get_args(Normalisation):
-        raise ValueError(f"normalisation {content['normalisation']!r}")
-    if set(classes) != set(labels.names[1:]):
+    descriptor = _descriptor(content["descriptor"], _part(arrays, _DESCRIPTOR))
+    classifier = _classifier(content["classifier"], _part(arrays, _CLASSIFIER))
+    if set(classifier.classes_) != set(labels.names[1:]):
         raise ValueError("classes that are not the labels")
+    if classifier.n_features_in_ != descriptor.length:
+        raise ValueError(
+            f"a classifier of {classifier.n_features_in_} numbers behind a descriptor of "
+            f"{descriptor.length}"
+        )
+    kinds = len(labels) - 1
+    if arrays["transitions"].shape != (kinds, kinds):
+        raise ValueError(f"transitions of shape {arrays['transitions'].shape}")
     return PlaceModel(
-        labels,
-        BagOfFeatures(NeuralGas.from_prototypes(prototypes)),
-        PlaceClassifier.from_arrays(
-            classes, arrays["coef"], arrays["intercept"], arrays["sigmoid"], arrays["scaling"]
-        ),
-        FeatureSettings(**content["features"]),
-        content["normalisation"],
-        int(content["min_features"]),
-        content["training"],
-        encoder,
-        float(content["reject_below"]),
-        arrays["transitions"],
-        _exemplars(arrays),
+        labels=labels, descriptor=descriptor, classifier=classifier, training=content["training"],
+        reject_below=float(content["reject_below"]), transitions=arrays["transitions"],
+        exemplars=_exemplars(_part(arrays, _EXEMPLARS), descriptor.length),
+    )  # fmt: skip
+
+
+def _descriptor(content: dict[str, Any], arrays: Arrays) -> ImageDescriptor:
+    made = _known(DESCRIPTORS, content["name"], "descriptor")
+    features = content["features"]
+    descriptor: ImageDescriptor = made(
+        made.settings_class(**content["settings"]),
+        None if features is None else FeatureSettings(**features),
     )
+    return descriptor.with_arrays(arrays)
 
 
-def _exemplars(arrays: dict[str, NDArray[Any]]) -> Exemplars | None:
-    if "lesson_vectors" not in arrays:
+def _classifier(content: dict[str, Any], arrays: Arrays) -> PlaceClassifier:
+    made = _known(CLASSIFIERS, content["name"], "classifier")
+    settings = made.settings_class(**content["settings"])
+    classifier: PlaceClassifier = made(**settings.model_dump())
+    return classifier.with_arrays(content["classes"], arrays)
+
+
+def _known(classes: dict[str, Any], name: str, what: str) -> Any:
+    if name not in classes:
+        raise ValueError(f"{what} {name!r}, expected {' or '.join(classes)}")
+    return classes[name]
+
+
+def _exemplars(arrays: Arrays, length: int) -> Exemplars | None:
+    if not arrays:
         return None
-    names = ("lesson_vectors", "lesson_labels", "lesson_groups")
-    vectors, labels, groups = (arrays[name] for name in names)
-    if vectors.shape != (len(labels), arrays["coef"].shape[1]) or len(groups) != len(labels):
+    vectors, labels, groups = (arrays[name] for name in ("vectors", "labels", "groups"))
+    if vectors.shape != (len(labels), length) or len(groups) != len(labels):
         raise ValueError(f"exemplars of shape {vectors.shape}")
     return Exemplars(vectors, labels, groups)
 
 
-def _encoder(content: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> FisherEncoder | None:
-    if content["dense"] is None:
-        return None
-    return FisherEncoder(
-        DenseSettings(**content["dense"]), {name: arrays[PREFIX + name] for name in ENCODER_ARRAYS}
-    )
+def _part(arrays: Arrays, prefix: str) -> Arrays:
+    """Return the arrays whose names begin with a prefix, without it."""
+    return {n.removeprefix(prefix): a for n, a in arrays.items() if n.startswith(prefix)}
 
 
-def _check_shapes(arrays: dict[str, NDArray[Any]], n_classes: int, length: int) -> None:
-    prototypes = arrays["prototypes"]
-    expected = {
-        "prototypes": (len(prototypes), prototypes.shape[-1]),
-        "coef": (n_classes, length),
-        "intercept": (n_classes,),
-        "sigmoid": (n_classes, 2),
-        "scaling": (n_classes + 1,),
-        "transitions": (n_classes, n_classes),
-    }
-    for name, shape in expected.items():
-        if arrays[name].shape != shape or not np.isfinite(arrays[name]).all():
-            raise ValueError(f"{name} of shape {arrays[name].shape}, expected finite {shape}")
-
-
-def _read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+def _read_arrays(path: Path) -> Arrays:
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return {name: arrays[name] for name in arrays.files}

@@ -4,57 +4,25 @@ from __future__ import annotations
 
 import logging
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
 from itertools import groupby
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
-from roomgraph.semantics.descriptors.histogram import BagOfFeatures
-from roomgraph.semantics.descriptors.neural_gas import NeuralGas
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
+from roomgraph.semantics.descriptors.descriptor import ImageDescriptor, vectors_of
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
-from roomgraph.semantics.recognition.description import Described, describe_images
-from roomgraph.semantics.recognition.encoding import learn_encoder, sample_of, vectors_of
 from roomgraph.semantics.recognition.examples import Example, thin_out
-from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
-from roomgraph.semantics.recognition.presets import TrainingSettings
+from roomgraph.semantics.recognition.exemplars import choose_exemplars
+from roomgraph.semantics.recognition.model import PlaceModel
+from roomgraph.semantics.recognition.preparation import Prepared, Progress, prepare_images
+from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.slam.features.extraction import FeatureSettings
 
 logger = logging.getLogger(__name__)
-
-Progress = Callable[[int, int], None]
-
-
-@dataclass(frozen=True, slots=True)
-class TrainingSummary:
-    """What the training saw and how well it fits.
-
-    Attributes
-    ----------
-    images : dict of str to int
-        Images used, by label.
-    unreadable, featureless : int
-        Images left out: not readable, or with too few features.
-    descriptors : int
-        Descriptors that the words were learned from.
-    quantization_error : float
-        Mean squared distance of those to their words, in the descriptors' units.
-    cross_validated_accuracy : float
-        Share of images labelled rightly by machines trained without their group: their visit, or
-        their whole sequence where several show the same kinds of place.
-    """
-
-    images: dict[str, int]
-    unreadable: int
-    featureless: int
-    descriptors: int
-    quantization_error: float
-    cross_validated_accuracy: float
 
 
 def train(
@@ -64,25 +32,28 @@ def train(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> PlaceModel:
-    """Learn words, then machines, from labelled images (paper, section 3.2).
+    """Learn a descriptor, then a classifier, from labelled images (paper, section 3.2).
 
     Parameters
     ----------
     examples : sequence of Example
         From `folder_examples`, `sequence_examples`, or both.
     features : FeatureSettings
-        How images are described; runs with the model have to use the same.
+        How local features are extracted, where the descriptor looks at any.
     settings : TrainingSettings
         What is learned.
     seed : int
         Same examples and seed, same model.
     progress : callable, optional
-        Called with (images described, images).
+        Called with (images prepared, images).
 
     Returns
     -------
     PlaceModel
-        With its `TrainingSummary` in ``model.training``.
+        With a summary in ``model.training``: ``images`` by label, ``unreadable`` and
+        ``featureless`` images left out, ``cross_validated_accuracy`` (share of images labelled
+        rightly by classifiers trained without their group: their visit, or their whole sequence
+        where several show the same kinds of place), and what the descriptor says of itself.
 
     Raises
     ------
@@ -92,95 +63,84 @@ def train(
     chosen = thin_out(
         [e for e in examples if e.label != UNKNOWN], settings.stride, settings.max_images_per_label
     )
-    dense = settings.fisher.dense if settings.encoding == "fisher" else None
-    found = describe_images(chosen, features, dense, settings.threads, progress)
-    return learn(found, features, settings, seed)
+    descriptor = settings.make_descriptor(features)
+    found = prepare_images(chosen, descriptor, settings.threads, to_fit=True, progress=progress)
+    return learn(found, descriptor, settings, seed)
 
 
 def learn(
-    found: Sequence[Described | None],
-    features: FeatureSettings,
+    found: Sequence[Prepared | None],
+    descriptor: ImageDescriptor,
     settings: TrainingSettings,
     seed: int = 0,
 ) -> PlaceModel:
-    """Learn a place model from described images, None for those that could not be read.
+    """Learn a place model from prepared images, None for those that could not be read.
 
     Raises
     ------
     SemanticsError
         Fewer than two labels are left to tell apart.
     """
-    usable = [d for d in found if d is not None and is_usable(d, settings)]
-    images = Counter(d.example.label for d in usable)
-    _check_labels(images)
+    usable = [image for image in found if image is not None and image.content is not None]
+    _check_labels(usable)
     random = np.random.default_rng(seed)
-    sample = sample_of([d.descriptors for d in usable], settings.max_descriptors, random)
-    gas = NeuralGas(settings.n_words, settings.n_epochs, random_state=random).fit(sample)
-    bag, encoder = BagOfFeatures(gas), learn_encoder(usable, settings, random)
-    vectors, groups = vectors_of(usable, bag, encoder, settings), _groups(usable)
-    truth = [d.example.label for d in usable]
-    classifier = PlaceClassifier(settings.C, random_state=random).fit(vectors, truth, groups)
-    unreadable = sum(described is None for described in found)
-    summary = TrainingSummary(
-        dict(sorted(images.items())), unreadable, len(found) - len(usable) - unreadable,
-        len(sample), gas.quantization_error_, classifier.cross_validated_accuracy_,
-    )  # fmt: skip
-    logger.info("trained on %d images: %s", len(usable), summary)
-    labels = LabelSpace.of(images)
+    descriptor.fit([image.content for image in usable], random)
+    vectors = vectors_of(descriptor, [image.content for image in usable], settings.threads)
+    seen = [i for i, vector in enumerate(vectors) if vector is not None]
+    images = [usable[i] for i in seen]
+    counts = _check_labels(images)
+    matrix = np.array([vectors[i] for i in seen])
+    truth, groups = [image.example.label for image in images], groups_of(images)
+    classifier = settings.make_classifier().clone(random_state=random).fit(matrix, truth, groups)
+    unreadable = sum(image is None for image in found)
+    summary: dict[str, Any] = {
+        "images": dict(sorted(counts.items())),
+        "unreadable": unreadable,
+        "featureless": len(found) - len(images) - unreadable,
+        **descriptor.summary(),
+        "cross_validated_accuracy": classifier.cross_validated_accuracy_,
+    }
+    logger.info("trained on %d images: %s", len(images), summary)
+    labels = LabelSpace.of(counts)
     return PlaceModel(
-        labels, bag, classifier, features, settings.normalisation, settings.min_features,
-        asdict(summary), encoder, threshold(classifier, settings.reject),
-        count_transitions(walks_of(usable), labels.names[1:]),
-        _exemplars(vectors, truth, groups, settings.exemplars),
-    )  # fmt: skip
-
-
-def is_usable(image: Described, settings: TrainingSettings) -> bool:
-    """Whether there is enough in an image to learn from it."""
-    return len(image.descriptors) >= settings.min_features
-
-
-def _exemplars(
-    vectors: NDArray[Any], truth: Sequence[str], groups: Sequence[str], most: int
-) -> Exemplars | None:
-    """Return at most so many of each label, evenly spread."""
-    if not most:
-        return None
-    labels = np.array(truth)
-    rows = [np.flatnonzero(labels == name) for name in np.unique(labels)]
-    kept = np.sort(
-        np.concatenate(
-            [own[np.linspace(0, len(own) - 1, min(most, len(own))).astype(int)] for own in rows]
-        )
+        labels=labels,
+        descriptor=descriptor,
+        classifier=classifier,
+        training=summary,
+        reject_below=threshold(classifier, settings.reject),
+        transitions=count_transitions(walks_of(images), labels.names[1:]),
+        exemplars=choose_exemplars(matrix, truth, groups, settings.exemplars),
     )
-    return Exemplars(vectors[kept].astype(np.float16), labels[kept], np.array(groups)[kept])
 
 
-def _check_labels(images: Counter[str]) -> None:
-    if len(images) < 2:
+def _check_labels(images: Sequence[Prepared]) -> Counter[str]:
+    """Return the number of images by label, of which there must be two."""
+    counts = Counter(image.example.label for image in images)
+    if len(counts) < 2:
         raise SemanticsError(
             "too few labels to tell apart", expected="readable images of two labels or more",
-            got=", ".join(images) or "none",
+            got=", ".join(counts) or "none",
         )  # fmt: skip
+    return counts
 
 
-def _groups(images: Sequence[Described]) -> list[str]:
+def groups_of(images: Sequence[Prepared]) -> list[str]:
     """Return what is held out together: whole sequences if every label is in two or more.
 
     Day and night of one building, or two laps, show the same rooms: a visit held out alone would
-    be judged by machines that know the room from the other sequence.
+    be judged by a classifier that knows the room from the other sequence.
     """
-    sessions = {(d.example.label, d.example.session) for d in images}
+    sessions = {(image.example.label, image.example.session) for image in images}
     count = Counter(label for label, _ in sessions)
     if min(count.values()) >= 2 and len({session for _, session in sessions}) < len(images) // 2:
-        return [d.example.session for d in images]
-    return [d.example.group for d in images]
+        return [image.example.session for image in images]
+    return [image.example.group for image in images]
 
 
-def walks_of(images: Sequence[Described]) -> list[list[str]]:
+def walks_of(images: Sequence[Prepared]) -> list[list[str]]:
     """Return the labels along each sequence that the images are from, in time order."""
-    by_session = groupby(images, key=lambda d: d.example.session)
-    return [[d.example.label for d in walk] for _, walk in by_session]
+    by_session = groupby(images, key=lambda image: image.example.session)
+    return [[image.example.label for image in walk] for _, walk in by_session]
 
 
 def threshold(classifier: PlaceClassifier, share: float) -> float:

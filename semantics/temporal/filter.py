@@ -1,4 +1,4 @@
-"""A hidden Markov model of places: one does not step from a kitchen into a bathroom."""
+"""Temporal model ``filter``: one does not step from a kitchen into a bathroom."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.semantics.recognition.transitions import without_staying
+from roomgraph.semantics.temporal.look import Look
+from roomgraph.semantics.temporal.odometer import INDEPENDENT_M
+from roomgraph.semantics.temporal.settings import LabellerSettings
+from roomgraph.semantics.temporal.temporal_model import Belief, TemporalModel
 
 FloatArray = NDArray[np.float64]
 
@@ -17,8 +21,8 @@ _LEAST = 1e-3
 _LEAST_WEIGHT = 0.1
 
 
-class PlaceFilter:
-    """Which kind of place the camera is in, from all looks so far.
+class PlaceFilter(TemporalModel):
+    """A hidden Markov model: which kind of place the camera is in, from all looks so far.
 
     The states are the kinds of place. The chance of having left one grows with the way walked
     since the last look, ``1 - exp(-way / change_m)``; where to follows `transitions`, which are
@@ -31,32 +35,34 @@ class PlaceFilter:
     transitions : (K, K) float64
         Chance of each kind (column) after leaving a kind (row); rows sum to one, the diagonal is
         not used.
-    change_m : float
-        Metres walked in one kind of place, on average.
-    independent_m : float
-        Looks this far apart say independent things.
+    settings : LabellerSettings
+        Its `change_m`: metres walked in one kind of place, on average.
     """
 
-    def __init__(
-        self, transitions: FloatArray, change_m: float, independent_m: float = 0.5
-    ) -> None:
+    name = "filter"
+
+    def __init__(self, transitions: FloatArray, settings: LabellerSettings) -> None:
         self.transitions = without_staying(transitions)
-        self.change_m, self.independent_m = change_m, independent_m
+        self.change_m = settings.change_m
         self._belief: FloatArray | None = None
 
-    def advance(self, way_m: float, probabilities: FloatArray) -> FloatArray:
-        """Take a look for good and return the belief (K,) after it.
-
-        Parameters
-        ----------
-        way_m : float
-            From the last look to this one, metres (see `Odometer`).
-        probabilities : (K,) float64
-            What the look alone says.
-        """
-        (moves,), (seen,) = self._moves([way_m]), self._evidence(probabilities[None], [way_m])
+    def advance(self, look: Look) -> None:
+        """Take a look for good: from now on, it is known with its past."""
+        probabilities = look.prediction.probabilities[None, 1:]
+        (moves,), (seen,) = (
+            self._moves([look.way_m]), self._evidence(probabilities, [look.way_m])
+        )  # fmt: skip
         self._belief = self._step(self._belief, moves, seen)
-        return self._belief
+
+    def belief(self, order: int, looks: Sequence[Look], voters: Sequence[Look]) -> Belief:
+        """Return the probabilities at the look nearest to a frame, given all looks so far."""
+        beliefs = self.smoothed(
+            [look.way_m for look in looks],
+            np.array([look.prediction.probabilities[1:] for look in looks]),
+        )
+        nearest = min(range(len(beliefs)), key=lambda i: abs(looks[i].order - order))
+        probabilities = np.concatenate([[0.0], beliefs[nearest]])
+        return Belief(int(probabilities.argmax()), probabilities)
 
     def smoothed(self, ways_m: Sequence[float], probabilities: FloatArray) -> FloatArray:
         """Return the beliefs (N, K) at N looks, each given all of them and those taken for good.
@@ -95,5 +101,5 @@ class PlaceFilter:
 
     def _evidence(self, probabilities: FloatArray, ways: Sequence[float]) -> FloatArray:
         """Return how well each look (N, K) fits each kind, given the way to it."""
-        weights = np.clip(np.asarray(ways) / self.independent_m, _LEAST_WEIGHT, 1.0)
+        weights = np.clip(np.asarray(ways) / INDEPENDENT_M, _LEAST_WEIGHT, 1.0)
         return np.asarray(np.maximum(probabilities, _LEAST) ** weights[:, None])

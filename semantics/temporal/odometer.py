@@ -7,24 +7,20 @@ from numpy.typing import NDArray
 
 # At half of what two independent views differ by, the next views are compared with this one.
 _RENEW = 0.5
+# Looks this far apart say independent things, metres.
+INDEPENDENT_M = 0.5
 
 
 class Odometer:
     """Measures the way from look to look: by the poses, or else by how the view changes.
 
     Views are unit vectors (Fisher vectors, histograms); two that have nothing in common, by their
-    cosine, count as `independent_m` apart. The views that follow one are compared with that one
+    cosine, count as `INDEPENDENT_M` apart. The views that follow one are compared with that one
     until they are half as different, and what counts is by how much the difference grows: so the
     images' noise does not add up while the camera stands still, at whatever frame rate.
-
-    Parameters
-    ----------
-    independent_m : float
-        Looks this far apart say independent things.
     """
 
-    def __init__(self, independent_m: float) -> None:
-        self.independent_m = independent_m
+    def __init__(self) -> None:
         self._position: NDArray[np.float64] | None = None
         self._reference: NDArray[np.floating] | None = None
         self._change = 0.0
@@ -46,10 +42,10 @@ class Odometer:
         last, self._position = self._position, position
         if self._is_first:
             self._is_first = False
-            return self.independent_m
+            return INDEPENDENT_M
         if last is not None and position is not None:
             return float(np.linalg.norm(position - last))
-        return self.independent_m * changed
+        return INDEPENDENT_M * changed
 
     def _changed(self, view: NDArray[np.floating] | None) -> float:
         """Return by how much more than the last a view differs from the reference, 0 to 1."""

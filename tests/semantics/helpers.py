@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from roomgraph.datasets.se3 import pose
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
-from roomgraph.semantics.descriptors.histogram import BagOfFeatures, normalise
-from roomgraph.semantics.descriptors.neural_gas import NeuralGas
+from roomgraph.semantics.classifiers.linear_svm import LinearSvm
+from roomgraph.semantics.descriptors.words import WordsDescriptor, WordsSettings
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.semantics.recognition.model import PlaceModel
 from roomgraph.semantics.temporal.labeller import FrameLabel
-from roomgraph.slam.features.extraction import Features, FeatureSettings
-from roomgraph.slam.tracking import Anchor, Tracking, TrackingState
+from roomgraph.semantics.temporal.look import FrameInput
+from roomgraph.slam.features.extraction import Features
+from roomgraph.slam.tracking import Anchor
 
 
 def features(descriptors: np.ndarray) -> Features:
@@ -30,43 +28,37 @@ def descriptors_of(word: int, n: int = 20, n_words: int = 4) -> np.ndarray:
 
 def tiny_model() -> PlaceModel:
     """A model of three labels, each with a word of its own; the fourth word is everywhere."""
-    bag = BagOfFeatures(NeuralGas.from_prototypes((10 * np.eye(8)[:4]).astype(np.float32)))
+    settings = WordsSettings(n_words=4, normalisation="l1")
+    descriptor = WordsDescriptor(settings).with_arrays(
+        {"prototypes": (10 * np.eye(8)[:4]).astype(np.float32)}
+    )
     names = ["corridor", "kitchen", "office"]
-    counts = np.array([bag.counts(descriptors_of(k, n)) for k in range(3) for n in range(12, 32)])
-    classifier = PlaceClassifier(random_state=0).fit(normalise(counts, "l1"), np.repeat(names, 20))
-    return PlaceModel(LabelSpace.of(names), bag, classifier, FeatureSettings())
+    images = [descriptors_of(k, n) for k in range(3) for n in range(12, 32)]
+    vectors = np.array([descriptor.describe(image).vector for image in images])
+    classifier = LinearSvm(random_state=0).fit(vectors, np.repeat(names, 20))
+    return PlaceModel(labels=LabelSpace.of(names), descriptor=descriptor, classifier=classifier)
 
 
-def seen(found: Features) -> SimpleNamespace:
-    """What of a view the semantic layer looks at."""
-    return SimpleNamespace(features=found)
+def frame(index: int, word: int = 0, x: float | None = None, n: int = 20) -> FrameInput:
+    """A frame with `n` features, most of one word; at (x, 0, 0) if that is given."""
+    position = None if x is None else np.array([x, 0.0, 0.0])
+    return FrameInput(
+        index, index / 30, features=features(descriptors_of(word, n)), position_world=position
+    )
 
 
-def tracking(
-    index: int, x: float = 0.0, y: float = 0.0, word: int = 0, keyframe: int = 0, lost: bool = False
-) -> Tracking:
-    """A frame at (x, y, 0) relative to a keyframe, or a lost one."""
-    anchor = None if lost else Anchor(keyframe, pose(t=[x, y, 0.0]))
-    state = TrackingState.LOST if lost else TrackingState.OK
-    return Tracking(
-        index, index / 30, state, 50, "features", anchor, None, False, (),
-        np.empty((0, 2)), seen(features(descriptors_of(word))),
-    )  # fmt: skip
+def anchor(x: float, y: float = 0.0, keyframe: int = 0) -> Anchor:
+    """A pose at (x, y, 0) in front of a keyframe."""
+    return Anchor(keyframe, pose(t=[x, y, 0.0]))
 
 
 def frame_label(
-    index: int,
-    x: float,
-    y: float = 0.0,
-    label: str = "office",
-    histogram: np.ndarray | None = None,
-    keyframe: int = 0,
-    lost: bool = False,
+    index: int, label: str = "office", signature: np.ndarray | None = None
 ) -> FrameLabel:
     labels = label_space()
     return FrameLabel(
-        tracking(index, x, y, keyframe=keyframe, lost=lost), label, labels.id_of(label), 0.9,
-        label, view(0) if histogram is None else histogram,
+        index, index / 30, label, labels.id_of(label), 0.9, label,
+        view(0) if signature is None else signature,
     )  # fmt: skip
 
 
@@ -75,5 +67,5 @@ def label_space() -> LabelSpace:
 
 
 def view(k: int, n_words: int = 16) -> np.ndarray:
-    """Unit histograms; two different ones are sqrt(2) apart."""
+    """Unit signatures; two different ones are sqrt(2) apart."""
     return np.eye(n_words)[k]

@@ -7,12 +7,12 @@ from sklearn.base import clone
 from sklearn.pipeline import make_pipeline
 from sklearn.utils.estimator_checks import check_estimator
 
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.semantics.classifiers.linear_svm import LinearSvm
 from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 
 
 @pytest.mark.parametrize(
-    "estimator", [NeuralGas(n_vectors=3, random_state=0), PlaceClassifier(random_state=0)]
+    "estimator", [NeuralGas(n_vectors=3, random_state=0), LinearSvm(random_state=0)]
 )
 def test_estimator_checks(estimator):
     with warnings.catch_warnings():
@@ -25,7 +25,7 @@ def test_estimator_checks(estimator):
 
 
 def test_they_clone_and_join_pipelines():
-    pipeline = clone(make_pipeline(NeuralGas(4, random_state=0), PlaceClassifier(C=1.0)))
+    pipeline = clone(make_pipeline(NeuralGas(4, random_state=0), LinearSvm(C=1.0)))
     X = [[i % 2, i / 20] for i in range(20)]
     y = ["ab"[i % 2] for i in range(20)]
     assert pipeline.fit(X, y).score(X, y) == 1.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,9 +12,13 @@ from roomgraph.app.cli import options
 
 if TYPE_CHECKING:
     from roomgraph.app.console import Terminal
+    from roomgraph.app.learning.training import Recipe
+    from roomgraph.app.settings import AppSettings
 
 
+@options.grouped
 def evaluate(
+    recipe: options.RecipeFlags,
     run: Annotated[
         Path | None, typer.Argument(metavar="RUN", help="Folder of a run; none with --protocol.")
     ] = None,
@@ -50,9 +55,7 @@ def evaluate(
             help="What to experiment on, once for each folder; else rendered buildings.",
         ),
     ] = None,
-    preset: Annotated[
-        str, typer.Option("--preset", metavar="NAME", help="best, or paper: as published.")
-    ] = "best",
+    config: options.ConfigOption = None,
     seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
@@ -72,17 +75,23 @@ def evaluate(
       roomgraph eval --protocol building -o tables
 
       roomgraph eval --protocol recognition --data photos --preset paper
+
+      roomgraph eval --protocol building --descriptor words
     """
     from roomgraph.app.console import Terminal
+    from roomgraph.app.errors import AppError
     from roomgraph.app.report.figures import against_truth
     from roomgraph.app.run.evaluation import draw, evaluate_run
+    from roomgraph.app.settings import load_settings
     from roomgraph.app.storage.run_folder import RunFolder, refuse_existing
 
     terminal = Terminal(quiet)
     if protocol is not None or run is None:
-        return _experiment(
-            protocol, run, data or [], output, preset, seed or 0, overwrite, terminal
-        )
+        if protocol is None or run is not None:
+            raise AppError("nothing to evaluate", expected="either RUN or --protocol NAME")
+        settings = load_settings(config, {"seed": seed})
+        outcome = _Outcome(output or Path("results") / "protocols", protocol, overwrite)
+        return _experiment(outcome, recipe.recipe(), settings, data or [], terminal)
     if output is not None:
         refuse_existing(output, overwrite)
     found = evaluate_run(RunFolder(run), groundtruth, places)
@@ -92,19 +101,28 @@ def evaluate(
         terminal.say(f"Drawn to {output}")
 
 
+@dataclass(frozen=True, slots=True)
+class _Outcome:
+    """Where an experiment's tables and picture go."""
+
+    directory: Path
+    protocol: str
+    overwrite: bool
+
+    def check(self) -> None:
+        """Raise where they may not be written."""
+        from roomgraph.app.storage.run_folder import refuse_existing
+
+        table = self.directory / f"{self.protocol}.json"
+        if table.exists():
+            refuse_existing(table, self.overwrite)
+
+
 def _experiment(
-    protocol: str | None,
-    run: Path | None,
-    data: list[Path],
-    output: Path | None,
-    preset: str,
-    seed: int,
-    overwrite: bool,
-    terminal: Terminal,
+    outcome: _Outcome, recipe: Recipe, settings: AppSettings, data: list[Path], terminal: Terminal
 ) -> None:
     from threadpoolctl import threadpool_limits
 
-    from roomgraph.app.errors import AppError
     from roomgraph.app.experiments.protocols import run_protocol
     from roomgraph.app.experiments.report import markdown, write_report
     from roomgraph.app.experiments.vocabulary import (
@@ -112,19 +130,14 @@ def _experiment(
         vocabulary_markdown,
         write_vocabulary,
     )
-    from roomgraph.app.learning.training import checked_preset
-    from roomgraph.app.storage.run_folder import refuse_existing
 
-    if protocol is None or run is not None:
-        raise AppError("nothing to evaluate", expected="either RUN or --protocol NAME")
-    output = output or Path("results") / "protocols"
-    if (output / f"{protocol}.json").exists():
-        refuse_existing(output / f"{protocol}.json", overwrite)
+    outcome.check()
     with threadpool_limits(1, user_api="blas"):
-        if protocol == "vocabulary":
-            content = write_vocabulary(output, run_vocabulary(data, terminal), data)
+        if outcome.protocol == "vocabulary":
+            content = write_vocabulary(outcome.directory, run_vocabulary(data, terminal), data)
             terminal.say(vocabulary_markdown(content))
         else:
-            report = run_protocol(protocol, checked_preset(preset), data, seed, terminal)
-            terminal.say(markdown(write_report(output, report)))
-    terminal.say(f"Written to {output}: {protocol}.json, {protocol}.md, {protocol}.png")
+            report = run_protocol(outcome.protocol, recipe, settings, data, terminal)
+            terminal.say(markdown(write_report(outcome.directory, report)))
+    name = outcome.protocol
+    terminal.say(f"Written to {outcome.directory}: {name}.json, {name}.md, {name}.png")

@@ -10,6 +10,7 @@ import typer
 from roomgraph.app.cli import options
 
 
+@options.grouped
 def train(
     data: Annotated[
         list[Path],
@@ -20,10 +21,7 @@ def train(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="MODEL", help="Folder of the model.")
     ],
-    preset: Annotated[
-        str | None,
-        typer.Option("--preset", metavar="NAME", help="paper, as published, or best (default)."),
-    ] = None,
+    recipe: options.RecipeFlags,
     config: options.ConfigOption = None,
     seed: options.SeedOption = None,
     overwrite: options.OverwriteOption = False,
@@ -32,8 +30,8 @@ def train(
 ) -> None:
     """Learn places from labelled images or sequences.
 
-    Visual words and a classifier. Each DATA is a folder with a subfolder of images for each class,
-    or an RGB-D sequence with a places.csv (timestamp,label).
+    A descriptor, which makes a vector of an image, and a classifier. Each DATA is a folder with a
+    subfolder of images for each class, or an RGB-D sequence with a places.csv (timestamp,label).
 
     Examples:
 
@@ -42,14 +40,16 @@ def train(
       roomgraph train day_walk night_walk -o places
 
       roomgraph train photos/ -o as_published --preset paper
+
+      roomgraph train photos/ -o by_words --descriptor words
     """
     from roomgraph.app.console import Terminal
-    from roomgraph.app.learning.training import train_model, with_preset
+    from roomgraph.app.learning.training import train_model
     from roomgraph.app.settings import load_settings
     from roomgraph.semantics.recognition.model_files import refuse_other, save_model
 
     terminal = Terminal(quiet, verbose)
-    settings = with_preset(load_settings(config, {"seed": seed}), preset)
+    settings = recipe.recipe().applied(load_settings(config, {"seed": seed}))
     refuse_other(output, overwrite)
     with terminal.logging():
         model = train_model(data, settings, terminal)

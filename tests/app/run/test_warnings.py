@@ -12,7 +12,7 @@ from tests.app.command import roomgraph
 
 def test_good_data_is_not_warned_of(mapped):
     _, run = mapped
-    assert "WARNING app.session" not in RunFolder(run).log.read_text()
+    assert "WARNING roomgraph.app.run.session" not in RunFolder(run).log.read_text()
 
 
 def test_a_wrong_depth_scale_is_said_logged_and_kept(rendered_walk, tmp_path, monkeypatch, capsys):
@@ -23,7 +23,7 @@ def test_a_wrong_depth_scale_is_said_logged_and_kept(rendered_walk, tmp_path, mo
     warning = folder.read_metrics()["warnings"][0]
     assert "--depth-scale 5000 would be plausible" in warning
     assert f"warning: {warning}" in capsys.readouterr().out
-    assert f"WARNING app.session depth scale: {warning}" in folder.log.read_text()
+    assert f"WARNING roomgraph.app.run.session depth scale: {warning}" in folder.log.read_text()
 
 
 def test_an_impossible_one_is_named_by_the_error(rendered_walk, tmp_path, monkeypatch, capsys):
@@ -54,14 +54,14 @@ def test_depth_beside_the_colour_is_laid_there_and_the_camera_kept(
     assert again.camera.depth is not None
     assert not examine(again, CheckSettings()).findings
     assert roomgraph(monkeypatch, "eval", out) == 0
-    mended = folder.read_metrics()["ate_rmse_m"]
+    corrected = folder.read_metrics()["ate_rmse_m"]
 
     settings, plain = tmp_path / "settings.toml", tmp_path / "plain"
-    settings.write_text("[checks]\nmend = false\n")
+    settings.write_text("[checks]\ncorrect_camera = false\n")
     arguments = ("run", walk, "-o", plain, "--no-rrd", "--quiet", "--config", settings)
     assert roomgraph(monkeypatch, *arguments) == 0
     assert not RunFolder(plain).camera.exists()
-    assert mended < RunFolder(plain).read_metrics()["ate_rmse_m"]
+    assert corrected < RunFolder(plain).read_metrics()["ate_rmse_m"]
 
 
 def test_checks_can_be_left_out(rendered_walk, tmp_path, monkeypatch):

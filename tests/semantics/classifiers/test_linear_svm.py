@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from roomgraph.semantics.classifiers.folds import assign_folds
-from roomgraph.semantics.classifiers.linear_svm import PlaceClassifier
+from roomgraph.semantics.classifiers.linear_svm import LinearSvm
 from roomgraph.semantics.classifiers.platt import fit_sigmoid, sigmoid
 
 
@@ -21,7 +21,7 @@ def test_agrees_with_sklearn_one_against_all(overlapping):
     from sklearn.svm import LinearSVC
 
     X, y = overlapping
-    ours = PlaceClassifier(C=10, random_state=0).fit(X, y)
+    ours = LinearSvm(C=10, random_state=0).fit(X, y)
     theirs = OneVsRestClassifier(LinearSVC(C=10, dual=False)).fit(X, y)
     np.testing.assert_allclose(ours.decision_function(X), theirs.decision_function(X), atol=1e-3)
     np.testing.assert_array_equal(ours.classes_, theirs.classes_)
@@ -29,7 +29,7 @@ def test_agrees_with_sklearn_one_against_all(overlapping):
 
 def test_probabilities_are_calibrated(overlapping):
     X, y = overlapping
-    classifier = PlaceClassifier(random_state=0).fit(X[:600], y[:600])
+    classifier = LinearSvm(random_state=0).fit(X[:600], y[:600])
     probability = classifier.predict_proba(X[600:])
     np.testing.assert_allclose(probability.sum(axis=1), 1)
     right = classifier.predict(X[600:]) == y[600:]
@@ -40,27 +40,21 @@ def test_probabilities_are_calibrated(overlapping):
 def test_two_classes():
     X = np.array([[0.0], [0.1], [0.2], [0.8], [0.9], [1.0]] * 3)
     y = np.array(["a", "a", "a", "b", "b", "b"] * 3)
-    classifier = PlaceClassifier(random_state=0).fit(X, y)
+    classifier = LinearSvm(random_state=0).fit(X, y)
     assert classifier.decision_function(X).shape == (18,)
     assert classifier.score(X, y) == 1
 
 
 def test_a_class_of_one_sample_has_no_cross_validation():
-    classifier = PlaceClassifier().fit([[0.0], [1.0], [1.1]], ["a", "b", "b"])
+    classifier = LinearSvm().fit([[0.0], [1.0], [1.1]], ["a", "b", "b"])
     assert np.isnan(classifier.cross_validated_accuracy_)
     assert list(classifier.predict([[-1.0], [2.0]])) == ["a", "b"]
 
 
 def test_stored_arrays_predict_the_same(overlapping):
     X, y = overlapping
-    fitted = PlaceClassifier(random_state=0).fit(X, y)
-    stored = PlaceClassifier.from_arrays(
-        list(fitted.classes_),
-        fitted.coef_,
-        fitted.intercept_,
-        fitted.sigmoid_,
-        fitted.scaling_,
-    )
+    fitted = LinearSvm(random_state=0).fit(X, y)
+    stored = LinearSvm().with_arrays(list(fitted.classes_), fitted.arrays())
     np.testing.assert_array_equal(stored.predict_proba(X), fitted.predict_proba(X))
 
 
@@ -76,7 +70,7 @@ def test_stored_arrays_predict_the_same(overlapping):
 )
 def test_wrong_input(X, y, message):
     with pytest.raises(ValueError, match=message):
-        PlaceClassifier().fit(X, y)
+        LinearSvm().fit(X, y)
 
 
 def test_platt_recovers_a_known_sigmoid():

@@ -7,8 +7,8 @@ from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from roomgraph.semantics.descriptors.dense import DenseDescriptors, DenseSettings, describe_densely
-from roomgraph.semantics.descriptors.fisher import FisherEncoder
-from roomgraph.semantics.recognition.presets import FisherSettings
+from roomgraph.semantics.descriptors.fisher import FisherSettings
+from roomgraph.semantics.descriptors.fisher_encoder import FisherEncoder
 
 SETTINGS = DenseSettings(side=96, scales=2, step=6)
 

@@ -104,9 +104,11 @@ def test_unknown_parameter():
 
 def test_prediction_does_not_import_sklearn():
     code = (
-        "import sys, numpy as np; from semantics.neural_gas import NeuralGas; "
+        "import sys, numpy as np; "
+        "from roomgraph.semantics.descriptors.neural_gas import NeuralGas; "
         "NeuralGas.from_prototypes(np.eye(3, dtype=np.float32)).predict(np.eye(3)); "
-        "import semantics.settings, semantics.model_io, semantics.labeller, semantics.graph_io; "
+        "import roomgraph.semantics.settings, roomgraph.semantics.recognition.model_files; "
+        "import roomgraph.semantics.temporal.labeller, roomgraph.semantics.graph.files; "
         "sys.exit('sklearn' in sys.modules or 'networkx' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from roomgraph.semantics.classifiers.linear_svm import LinearSvm
 from roomgraph.semantics.evaluation import splits
 from roomgraph.semantics.evaluation.open_set import evaluate_open_set
 from roomgraph.semantics.evaluation.splits import EvaluationSet
@@ -32,7 +33,7 @@ def evaluation_set():
         np.array([f"{b}{kind}{room}" for kind, b, _, room in rows]),
         np.array([b for _, b, *_ in rows]),
         np.array([light for *_, light, _ in rows]),
-        1.0,
+        LinearSvm(C=1.0),
     )
 
 

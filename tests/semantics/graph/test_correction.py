@@ -1,15 +1,11 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from roomgraph.semantics.errors import SemanticsError
-from roomgraph.semantics.graph.correction import correct, learn_more
+from roomgraph.semantics.graph.correction import correct
 from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.graph import EdgeKind, GraphEdge, GraphNode, SemanticGraph
 from roomgraph.semantics.labels import LabelSpace
-from roomgraph.semantics.recognition.model import Exemplars
-from roomgraph.semantics.recognition.model_files import load_model, save_model
 from tests.semantics.helpers import descriptors_of, features, frame_label, tiny_model
 
 LABELS = LabelSpace.of(["corridor", "kitchen", "office"])
@@ -60,49 +56,12 @@ def test_wrong_names_are_told(place, label):
         correct(graph_of(["office1"], [0.9]), place, label, change_m=4.0)
 
 
-def with_exemplars():
-    model = tiny_model()
-    vectors, labels = [], []
-    for k, name in enumerate(("corridor", "kitchen", "office")):
-        for n in range(12, 32):
-            vectors.append(model.vector(features(descriptors_of(k, n))))
-            labels.append(name)
-    groups = np.array([str(i) for i in range(60)])
-    exemplars = Exemplars(np.array(vectors, dtype=np.float16), np.array(labels), groups)
-    return replace(model, exemplars=exemplars)
-
-
-def test_the_model_takes_in_a_new_class_and_keeps_the_old(tmp_path):
-    model = with_exemplars()
-    # The fourth word alone: nothing that the model was shown.
-    new = [model.vector(features(descriptors_of(3, n))) for n in range(12, 32)]
-    learned = learn_more(model, new, "attic", "visit")
-    assert learned.labels.names == ("unknown", "corridor", "kitchen", "office", "attic")
-    assert learned.predict(features(descriptors_of(3, 40))).label == "attic"
-    for k, name in enumerate(("corridor", "kitchen", "office")):
-        assert learned.predict(features(descriptors_of(k, 40))).label == name
-    np.testing.assert_allclose(learned.transitions.sum(axis=1), 1)
-    save_model(tmp_path / "m", learned)
-    again = load_model(tmp_path / "m")
-    assert again.predict(features(descriptors_of(3, 40))).label == "attic"
-    np.testing.assert_array_equal(again.exemplars.vectors, learned.exemplars.vectors)
-    more = learn_more(again, new, "attic", "another visit")
-    assert more.labels == learned.labels
-
-
-def test_without_exemplars_or_images_nothing_is_learned():
-    with pytest.raises(SemanticsError, match="exemplars"):
-        learn_more(tiny_model(), [np.ones(4)], "attic", "visit")
-    with pytest.raises(SemanticsError, match="nothing to learn"):
-        learn_more(with_exemplars(), [], "attic", "visit")
-
-
 def test_evidence_names_the_word_that_spoke_and_comes_back():
     model = tiny_model()
-    prediction = model.predict(features(descriptors_of(1)))
+    prediction = model.predict(None, features(descriptors_of(1)))
     assert prediction.words[0][0] == 1
     assert prediction.words[0][1] > 0
-    label = frame_label(3, 0.0)
+    label = frame_label(3)
     object.__setattr__(label, "probabilities", np.array([0, 0.2, 0.1, 0.7]))
     object.__setattr__(label, "voters", (1, 2, 3))
     object.__setattr__(label, "words", prediction.words)
@@ -111,4 +70,4 @@ def test_evidence_names_the_word_that_spoke_and_comes_back():
     again = Evidence.from_content(evidence.content())
     assert (again.labels, again.voters) == (evidence.labels, evidence.voters)
     assert again.voted == "office"
-    assert Evidence.of(frame_label(3, 0.0), LABELS) == Evidence()
+    assert Evidence.of(frame_label(3), LABELS) == Evidence()

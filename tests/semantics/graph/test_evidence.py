@@ -3,8 +3,9 @@ import pytest
 
 from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.topology import TopologicalMap, TopologySettings
-from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
-from tests.semantics.helpers import tiny_model, tracking
+from roomgraph.semantics.temporal.labeller import PlaceLabeller
+from roomgraph.semantics.temporal.settings import LabellerSettings
+from tests.semantics.helpers import anchor, frame, tiny_model
 
 
 def test_a_node_keeps_what_spoke_for_its_label():
@@ -12,9 +13,9 @@ def test_a_node_keeps_what_spoke_for_its_label():
     settings = LabellerSettings(window=3)
     labeller = PlaceLabeller(model, settings)
     topology = TopologicalMap(TopologySettings(), model.labels)
-    labels = [label for i in range(6) for label in labeller.process(tracking(i, 0.5 * i, word=1))]
+    labels = [label for i in range(6) for label in labeller.process(frame(i, word=1, x=0.5 * i))]
     for label in [*labels, *labeller.finish()]:
-        topology.update(label, {0: np.eye(4)})
+        topology.update(label, anchor(0.5 * label.index), {0: np.eye(4)})
     nodes = topology.snapshot({0: np.eye(4)}).nodes
     assert [node.frame for node in nodes] == [0, 2, 4]
     for node in nodes:

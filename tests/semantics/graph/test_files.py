@@ -64,7 +64,7 @@ def assert_same(a: SemanticGraph, b: SemanticGraph) -> None:
     assert len(a.nodes) == len(b.nodes)
     for ours, theirs in zip(a.nodes, b.nodes, strict=True):
         np.testing.assert_allclose(ours.position_world, theirs.position_world, atol=1e-6)
-        np.testing.assert_allclose(ours.histogram, theirs.histogram, atol=1e-6)
+        np.testing.assert_allclose(ours.signature, theirs.signature, atol=1e-6)
         for name in ("id", "frame", "stamp_s", "label", "label_id", "place", "score", "evidence"):
             assert getattr(ours, name) == getattr(theirs, name)
     for ours, theirs in zip(a.rooms, b.rooms, strict=True):

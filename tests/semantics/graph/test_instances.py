@@ -11,8 +11,8 @@ class Walk:
         self.names = PlaceNames(InstanceSettings(min_difference=0.8))
         self.observations, self.stays = [], []
 
-    def node(self, x, histogram, follows_last=False):
-        here = Observation(np.array([x, 0.0, 0.0]), histogram)
+    def node(self, x, signature, follows_last=False):
+        here = Observation(np.array([x, 0.0, 0.0]), signature)
         stay = self.names.assign("office", here, self.observations, self.stays, follows_last)
         self.observations.append(here)
         self.stays.append(stay)
@@ -24,9 +24,9 @@ class Walk:
 
 
 def mix(a, b, share):
-    """A unit histogram between two views; its distance to `a` grows with `share`."""
-    histogram = (1 - share) * view(a) + share * view(b)
-    return histogram / np.linalg.norm(histogram)
+    """A unit signature between two views; its distance to `a` grows with `share`."""
+    signature = (1 - share) * view(a) + share * view(b)
+    return signature / np.linalg.norm(signature)
 
 
 def test_the_first_place_is_number_one():

@@ -5,19 +5,19 @@ from roomgraph.datasets.se3 import pose
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.graph import EdgeKind
 from roomgraph.semantics.graph.topology import TopologicalMap, TopologySettings
-from tests.semantics.helpers import frame_label, label_space, view
+from tests.semantics.helpers import anchor, frame_label, label_space, view
 
 STILL = {0: np.eye(4)}
 
 
 def walk(stops, step=0.1, settings=None):
-    """Walk along the x axis: (x to walk to, label, histogram) one after the other."""
+    """Walk along the x axis: (x to walk to, label, signature) one after the other."""
     graph = TopologicalMap(settings or TopologySettings(), label_space())
     x, index = 0.0, 0
-    for target, label, histogram in stops:
+    for target, label, signature in stops:
         direction = np.sign(target - x)
         for _ in range(round(abs(target - x) / step)):
-            graph.update(frame_label(index, x, label=label, histogram=histogram), STILL)
+            graph.update(frame_label(index, label, signature), anchor(x), STILL)
             x, index = x + direction * step, index + 1
     return graph.snapshot(STILL)
 
@@ -36,7 +36,7 @@ def test_travel_is_along_the_path_not_as_the_crow_flies():
     graph = TopologicalMap(TopologySettings(), label_space())
     for i in range(126):  # twice round a circle of 0.5 m radius: 6.3 m
         a = i / 10
-        graph.update(frame_label(i, 0.5 * np.cos(a), 0.5 * np.sin(a)), STILL)
+        graph.update(frame_label(i), anchor(0.5 * np.cos(a), 0.5 * np.sin(a)), STILL)
     assert len(graph) == 7
 
 
@@ -44,15 +44,15 @@ def test_jitter_on_the_spot_is_not_travel():
     graph = TopologicalMap(TopologySettings(), label_space())
     noise = np.random.default_rng(0).normal(0, 0.006, (2000, 2))
     for i, (x, y) in enumerate(noise):
-        graph.update(frame_label(i, x, y), STILL)
+        graph.update(frame_label(i), anchor(x, y), STILL)
     assert len(graph) == 1
 
 
 def test_lost_frames_do_not_move_it():
     graph = TopologicalMap(TopologySettings(), label_space())
-    assert not graph.update(frame_label(0, 0, lost=True), STILL)
-    assert graph.update(frame_label(1, 0), STILL)
-    assert not graph.update(frame_label(2, 9, lost=True), STILL)
+    assert not graph.update(frame_label(0), None, STILL)
+    assert graph.update(frame_label(1), anchor(0), STILL)
+    assert not graph.update(frame_label(2), None, STILL)
     assert len(graph) == 1
 
 
@@ -91,7 +91,7 @@ def test_a_return_keeps_the_name_even_if_it_looks_different():
 def test_one_long_room_stays_one_place():
     graph = TopologicalMap(TopologySettings(), label_space())
     for i in range(300):
-        graph.update(frame_label(i, 0.1 * i, label="corridor", histogram=view(i // 20)), STILL)
+        graph.update(frame_label(i, "corridor", view(i // 20)), anchor(0.1 * i), STILL)
     assert graph.snapshot(STILL).places == ("corridor1",)
 
 
@@ -105,8 +105,8 @@ def test_a_single_wrong_node_near_its_like_opens_no_place():
 
 def test_a_jump_to_another_office_opens_it():
     graph = TopologicalMap(TopologySettings(), label_space())
-    graph.update(frame_label(0, 0, histogram=view(0)), STILL)
-    graph.update(frame_label(1, 20, histogram=view(1)), STILL)
+    graph.update(frame_label(0, signature=view(0)), anchor(0), STILL)
+    graph.update(frame_label(1, signature=view(1)), anchor(20), STILL)
     assert graph.snapshot(STILL).places == ("office1", "office2")
 
 
@@ -130,9 +130,9 @@ def test_nodes_move_with_their_keyframes():
     graph = TopologicalMap(TopologySettings(), label_space())
     drifted = {0: np.eye(4), 1: pose(t=[6.0, 3.0, 0.0])}
     for i in range(60):
-        graph.update(frame_label(i, 0.1 * i), drifted)
+        graph.update(frame_label(i), anchor(0.1 * i), drifted)
     for i in range(70):
-        graph.update(frame_label(60 + i, -0.1 * i, keyframe=1), drifted)
+        graph.update(frame_label(60 + i), anchor(-0.1 * i, keyframe=1), drifted)
     before = graph.snapshot(drifted)
     corrected = {0: np.eye(4), 1: pose(t=[6.0, 0.2, 0.0])}
     after = graph.snapshot(corrected)
@@ -150,7 +150,7 @@ def test_nodes_move_with_their_keyframes():
 
 def test_a_turned_keyframe_turns_its_nodes():
     graph = TopologicalMap(TopologySettings(), label_space())
-    graph.update(frame_label(0, 2.0), STILL)
+    graph.update(frame_label(0), anchor(2.0), STILL)
     quarter = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     turned = graph.snapshot({0: pose(quarter, [1.0, 1.0, 0.0])})
     np.testing.assert_allclose(turned.positions, [[1, 3, 0]])
@@ -159,7 +159,7 @@ def test_a_turned_keyframe_turns_its_nodes():
 def test_a_keyframe_without_pose_is_told():
     graph = TopologicalMap(TopologySettings(), label_space())
     with pytest.raises(SemanticsError, match="keyframe 0"):
-        graph.update(frame_label(0, 0), {})
+        graph.update(frame_label(0), anchor(0), {})
 
 
 def test_an_empty_map_is_an_empty_graph():

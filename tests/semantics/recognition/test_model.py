@@ -15,30 +15,26 @@ def model():
 
 def test_predicts_the_place(model):
     for word, label in enumerate(("corridor", "kitchen", "office")):
-        prediction = model.predict(features(descriptors_of(word)))
+        prediction = model.predict(None, features(descriptors_of(word)))
         assert prediction.label == label
         assert model.labels.names[prediction.label_id] == label
         assert prediction.score == prediction.probabilities[prediction.label_id] > 0.5
         assert prediction.probabilities.sum() == pytest.approx(1)
         assert prediction.probabilities[0] == 0
-        assert np.linalg.norm(prediction.histogram) == pytest.approx(1)
-
-
-def test_takes_bare_descriptors(model):
-    assert model.predict(descriptors_of(2)).label == "office"
+        assert np.linalg.norm(prediction.signature) == pytest.approx(1)
 
 
 @pytest.mark.parametrize("n", [0, 4])
 def test_too_few_features_are_unknown(model, n):
-    prediction = model.predict(features(descriptors_of(0, n)))
+    prediction = model.predict(None, features(descriptors_of(0, n)))
     assert (prediction.label, prediction.label_id, prediction.score) == ("unknown", 0, 0.0)
     assert prediction.probabilities[0] == 1
-    assert not prediction.histogram.any()
+    assert not prediction.signature.any()
 
 
 def test_other_descriptors_are_refused(model):
-    with pytest.raises(SemanticsError, match="descriptors do not fit the place model"):
-        model.predict(np.ones((10, 5), np.float32))
+    with pytest.raises(SemanticsError, match="features do not fit the place model"):
+        model.predict(None, features(np.ones((10, 5), np.float32)))
 
 
 def test_round_trip_without_pickle(model, tmp_path):
@@ -51,7 +47,7 @@ def test_round_trip_without_pickle(model, tmp_path):
     assert [p.name for p in (tmp_path / "models").iterdir()] == ["m"]
     assert (again.labels, again.features) == (model.labels, model.features)
     for word in range(3):
-        ours, theirs = (m.predict(descriptors_of(word)) for m in (model, again))
+        ours, theirs = (m.predict(None, features(descriptors_of(word))) for m in (model, again))
         np.testing.assert_array_equal(ours.probabilities, theirs.probabilities)
     for array in np.load(tmp_path / "models" / "m" / "arrays.npz", allow_pickle=False).values():
         assert array.dtype != object
@@ -88,14 +84,20 @@ def test_broken_models_are_refused(model, tmp_path):
     path.write_text(path.read_text().replace("place-model", "cake"))
     path = broken("c") / "model.json"
     content = json.loads(path.read_text())
-    content["classes"] = ["corridor", "kitchen"]
+    content["classifier"]["classes"] = ["corridor", "kitchen"]
     path.write_text(json.dumps(content))
     path = broken("d") / "model.json"
     content = json.loads(path.read_text())
-    content["features"]["detector"] = "eyes"
+    content["descriptor"]["features"]["detector"] = "eyes"
     path.write_text(json.dumps(content))
     (broken("e") / "arrays.npz").unlink()
-    for name in "abcde":
+    path = broken("f") / "model.json"
+    path.write_text(path.read_text().replace("linear_svm", "oracle"))
+    path = broken("g") / "arrays.npz"
+    arrays = dict(np.load(path))
+    arrays["classifier.coef"][0, 0] = np.nan
+    np.savez(path, **arrays)
+    for name in "abcdefg":
         with pytest.raises(SemanticsError, match=name):
             load_model(tmp_path / name)
 
@@ -103,7 +105,7 @@ def test_broken_models_are_refused(model, tmp_path):
 def test_pickled_arrays_are_refused(model, tmp_path):
     save_model(tmp_path / "m", model)
     arrays = dict(np.load(tmp_path / "m" / "arrays.npz"))
-    arrays["coef"] = np.array([object()], dtype=object)
+    arrays["classifier.coef"] = np.array([object()], dtype=object)
     np.savez(tmp_path / "m" / "arrays.npz", **arrays)
     with pytest.raises(SemanticsError, match="allow_pickle"):
         load_model(tmp_path / "m")

@@ -10,12 +10,20 @@ from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.places import PlaceTruth
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.recognition.examples import folder_examples, sequence_examples, thin_out
-from roomgraph.semantics.recognition.presets import TrainingSettings
+from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.semantics.recognition.training import train
-from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
+from roomgraph.slam.features.extraction import FeatureSettings
 
 FEATURES = FeatureSettings(max_features=200)
-SETTINGS = TrainingSettings(n_words=20, n_epochs=2)
+
+
+def settings(**words) -> TrainingSettings:
+    """Fisher vectors, their views compared by few words."""
+    fisher = {"signature": {"n_words": 20, "n_epochs": 2} | words}
+    return TrainingSettings.model_validate({"descriptors": {"fisher": fisher}})
+
+
+SETTINGS = settings()
 
 
 def image(kind: str, seed: int) -> np.ndarray:
@@ -73,19 +81,17 @@ def test_learns_from_folders(folder):
     assert model.training["images"] == {"boxes": 12, "discs": 12, "strokes": 12}
     assert model.training["cross_validated_accuracy"] > 0.7
     assert calls == [(i, 36) for i in range(1, 37)]
-    extractor = FeatureExtractor(FEATURES)
     kinds = [k for k in ("discs", "boxes", "strokes") for _ in range(10)]
-    found = [
-        model.predict(extractor.extract_image(image(kind, 100 + i)), image(kind, 100 + i)).label
-        for i, kind in enumerate(kinds)
-    ]
+    found = [model.predict(image(kind, 100 + i)).label for i, kind in enumerate(kinds)]
     assert np.mean(np.array(found) == kinds) > 0.7
 
 
 def test_same_seed_same_model(folder):
     a, b = (train(folder_examples(folder), FEATURES, SETTINGS, seed=5) for _ in range(2))
-    np.testing.assert_array_equal(a.bag.vocabulary.prototypes_, b.bag.vocabulary.prototypes_)
-    np.testing.assert_array_equal(a.classifier.sigmoid_, b.classifier.sigmoid_)
+    for ours, theirs in ((a.descriptor, b.descriptor), (a.classifier, b.classifier)):
+        assert ours.arrays().keys() == theirs.arrays().keys()
+        for name, array in ours.arrays().items():
+            np.testing.assert_array_equal(array, theirs.arrays()[name])
 
 
 def test_learns_from_sequences():
@@ -98,7 +104,7 @@ def test_learns_from_sequences():
 
 def test_learns_from_binary_descriptors(folder):
     model = train(folder_examples(folder), FeatureSettings(detector="orb"), SETTINGS)
-    assert model.bag.vocabulary.prototypes_.shape == (20, 256)
+    assert model.descriptor.arrays()["signature_prototypes"].shape == (20, 256)
 
 
 def test_unreadable_and_empty_images_are_left_out(folder, caplog):
@@ -120,8 +126,8 @@ def test_thinning_is_even_and_by_label(folder):
 
 
 def test_words_are_learned_from_a_bounded_sample(folder):
-    settings = TrainingSettings(n_words=20, n_epochs=1, max_descriptors=150)
-    assert train(folder_examples(folder), FEATURES, settings).training["descriptors"] == 150
+    few = settings(n_epochs=1, max_descriptors=150)
+    assert train(folder_examples(folder), FEATURES, few).training["descriptors"] == 150
 
 
 def test_one_label_is_too_few(folder):

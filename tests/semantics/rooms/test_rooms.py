@@ -13,7 +13,7 @@ from roomgraph.slam.reconstruction.floor_analysis import FloorAnalysis
 from roomgraph.slam.reconstruction.floor_plane import FloorPlane
 from roomgraph.slam.reconstruction.occupancy_grid import occupancy
 from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings, carve
-from tests.semantics.helpers import frame_label, label_space, view
+from tests.semantics.helpers import anchor, frame_label, label_space, view
 from tests.slam.scene import NOISE, around, box_room, keyframes
 
 HEIGHT_M = 1.2
@@ -69,8 +69,8 @@ class Run:
             kind = label(x, y)
             # Each room looks different all along: three views for the corridor and the offices.
             seen = view(seen_again or (0 if kind == "corridor" else 1 if x < 3.95 else 2))
-            item = frame_label(len(self.spots), x, y, kind, seen, keyframe)
-            self.map.update(item, T)
+            item = frame_label(len(self.spots), kind, seen)
+            self.map.update(item, anchor(x, y, keyframe), T)
             self.spots.append((x, y))
             self.labels.append(kind)
         return self

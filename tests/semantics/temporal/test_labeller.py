@@ -2,8 +2,10 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from roomgraph.semantics.temporal.labeller import LabellerSettings, PlaceLabeller
-from tests.semantics.helpers import descriptors_of, features, seen, tiny_model, tracking
+from roomgraph.semantics.temporal.labeller import PlaceLabeller
+from roomgraph.semantics.temporal.look import FrameInput
+from roomgraph.semantics.temporal.settings import LabellerSettings
+from tests.semantics.helpers import frame, tiny_model
 
 
 @pytest.fixture(scope="module")
@@ -13,14 +15,14 @@ def model():
 
 def run(model, words, window):
     labeller = PlaceLabeller(model, LabellerSettings(method="vote", window=window))
-    released = [labeller.process(tracking(i, word=word)) for i, word in enumerate(words)]
+    released = [labeller.process(frame(i, word)) for i, word in enumerate(words)]
     return released, labeller.finish()
 
 
 def test_labels_come_late_by_half_a_window_and_in_order(model):
     released, rest = run(model, [0] * 10, window=5)
     assert [len(labels) for labels in released] == [0, 0] + [1] * 8
-    assert [f.tracking.index for labels in [*released, rest] for f in labels] == list(range(10))
+    assert [f.index for labels in [*released, rest] for f in labels] == list(range(10))
 
 
 def test_outliers_are_voted_down(model):
@@ -52,28 +54,21 @@ def test_short_sequences_and_windows_of_one(model):
 
 def test_featureless_frames_abstain(model):
     labeller = PlaceLabeller(model, LabellerSettings(window=3))
-    blank = tracking(1)
-    object.__setattr__(blank, "view", seen(features(descriptors_of(0, 0))))
-    labels = [
-        f
-        for item in (tracking(0, word=2), blank, tracking(2, word=2))
-        for f in labeller.process(item)
-    ] + labeller.finish()
+    items = (frame(0, 2), frame(1, n=0), frame(2, 2))
+    labels = [f for item in items for f in labeller.process(item)] + labeller.finish()
     assert [f.label for f in labels] == ["office"] * 3
     assert labels[1].raw_label == "unknown"
 
 
 def test_only_featureless_frames_are_unknown(model):
     labeller = PlaceLabeller(model, LabellerSettings(window=3))
-    blank = tracking(0)
-    object.__setattr__(blank, "view", seen(features(descriptors_of(0, 0))))
-    (label,) = labeller.process(blank) + labeller.finish()
+    (label,) = labeller.process(frame(0, n=0)) + labeller.finish()
     assert (label.label, label.label_id, label.score) == ("unknown", 0, 0.0)
 
 
 def test_without_a_model_everything_is_unknown_at_once():
     labeller = PlaceLabeller(None, LabellerSettings())
-    (label,) = labeller.process(tracking(0))
+    (label,) = labeller.process(frame(0))
     assert (label.label, label.label_id, label.score) == ("unknown", 0, 0.0)
     assert labeller.finish() == []
 
@@ -84,12 +79,10 @@ def test_the_window_is_odd():
 
 
 def looked_at(index, word, is_looked_at=True, x=None):
-    item = tracking(index, word=word)
+    x = 0.1 * index if x is None else x
+    item = frame(index, word, x)
     if not is_looked_at:
-        item = item.without_view()
-    T = np.eye(4)
-    T[0, 3] = 0.1 * index if x is None else x
-    object.__setattr__(item, "T_world_camera", T)
+        item = FrameInput(index, item.stamp_s, position_world=item.position_world)
     return item
 
 
@@ -103,12 +96,12 @@ def test_frames_without_features_take_the_label_around_them(model):
     words = [0] * 30 + [1] * 30
     items = [looked_at(i, word, i % 6 == 0) for i, word in enumerate(words)]
     parts, labels = labelled(model, items, window=13, min_voters=3)
-    assert [f.tracking.index for f in labels] == list(range(60))
+    assert [f.index for f in labels] == list(range(60))
     found = [f.label for f in labels]
     assert found[:27] == ["corridor"] * 27
     assert found[33:] == ["kitchen"] * 27
     assert [f.raw_label for f in labels[:3]] == ["corridor", "unknown", "unknown"]
-    assert all(len(f.histogram) for f in labels)
+    assert all(len(f.signature) for f in labels)
     # As late as half a window, and as the first keyframe after it.
     assert 6 <= next(i for i, part in enumerate(parts) if part) <= 12
 
@@ -152,7 +145,7 @@ def test_without_poses_a_change_is_found_as_soon_at_any_frame_rate(model):
     late = {}
     for rate in (1, 10):
         words = [0] * 12 * rate + [1] * 12 * rate
-        items = [tracking(i, word=word) for i, word in enumerate(words)]
+        items = [frame(i, word) for i, word in enumerate(words)]
         settings = {"method": "filter", "window": 9 * rate, "min_voters": 5}
         settings["window"] += settings["window"] % 2 == 0
         _, labels = labelled(model, items, **settings)

@@ -15,7 +15,7 @@ def pan(count, turn_deg, noise=0.0, n=64, seed=0):
 
 
 def ways(views, positions=None):
-    odometer = Odometer(independent_m=0.5)
+    odometer = Odometer()
     positions = [None] * len(views) if positions is None else positions
     return [odometer.step(p, v) for p, v in zip(positions, views, strict=True)]
 

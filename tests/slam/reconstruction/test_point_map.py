@@ -209,7 +209,7 @@ def test_a_thing_that_goes_away_is_dropped_and_the_wall_stays(rng, voxel_m):
     settings = MapSettings(voxel_m=voxel_m)
     with_box = build_map(there, T, settings, NOISE)
     found = build_map(there + gone, T, settings, NOISE)
-    whole = build_map(there + gone, T, settings.model_copy(update={"carve": False}), NOISE)
+    whole = build_map(there + gone, T, settings.model_copy(update={"remove_dynamic": False}), NOISE)
     assert _box_points(with_box) > 100 and _box_points(whole) > 100
     assert _box_points(found) < 0.1 * _box_points(whole)
     assert len(found) - _box_points(found) > 0.999 * (len(whole) - _box_points(whole))
@@ -219,7 +219,7 @@ def test_a_thing_that_walks_through_leaves_no_trail(rng):
     walk = [_box_before_wall(rng, 6 * i, 6 * i + 10, i) for i in range(9)]
     T = {i: np.eye(4) for i in range(9)}
     found = build_map(walk, T, SETTINGS, NOISE)
-    whole = build_map(walk, T, SETTINGS.model_copy(update={"carve": False}), NOISE)
+    whole = build_map(walk, T, SETTINGS.model_copy(update={"remove_dynamic": False}), NOISE)
     assert _box_points(found) < 0.1 * _box_points(whole)
 
 
@@ -240,7 +240,9 @@ def test_a_thing_that_stays_stays(rng):
     front = [_box_before_wall(rng, 20, 40, i) for i in range(4)]
     T = {i: np.eye(4) for i in range(4)}
     found = build_map(front, T, SETTINGS, NOISE)
-    assert _same(found, build_map(front, T, SETTINGS.model_copy(update={"carve": False}), NOISE))
+    assert _same(
+        found, build_map(front, T, SETTINGS.model_copy(update={"remove_dynamic": False}), NOISE)
+    )
 
 
 def test_noise_alone_makes_no_surface_empty(rng):

@@ -1,0 +1,74 @@
+"""What a place model is made of, and what it is learned from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import Field, field_validator
+
+from roomgraph.datasets.plugins import settings_by_name
+from roomgraph.datasets.settings import Settings
+from roomgraph.semantics.classifiers.classifier import PlaceClassifier
+from roomgraph.semantics.classifiers.registry import CLASSIFIERS
+from roomgraph.semantics.descriptors.descriptor import ImageDescriptor
+from roomgraph.semantics.descriptors.registry import DESCRIPTORS
+from roomgraph.slam.features.extraction import FeatureSettings
+
+if TYPE_CHECKING:
+    DescriptorSettings = Settings
+    ClassifierSettings = Settings
+else:
+    DescriptorSettings = settings_by_name("DescriptorSettings", DESCRIPTORS)
+    ClassifierSettings = settings_by_name("ClassifierSettings", CLASSIFIERS)
+
+
+class TrainingSettings(Settings):
+    """What a place model is made of, and what it is learned from."""
+
+    descriptor: str = Field("fisher", description=f"one of {', '.join(DESCRIPTORS)}")
+    classifier: str = Field("linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
+    stride: int = Field(1, ge=1, description="every n-th image of each label is used")
+    max_images_per_label: int = Field(
+        200, ge=2, description="maximum number of images of a label, evenly spread"
+    )
+    threads: int = Field(2, ge=1, le=64, description="images read and described at once")
+    reject: float = Field(
+        0.01, ge=0, lt=1,
+        description="share of held-out images that may be called unknown to keep novel ones out",
+    )  # fmt: skip
+    exemplars: int = Field(
+        100, ge=0,
+        description="images of each label kept in the model, so that it can learn others later",
+    )  # fmt: skip
+    descriptors: DescriptorSettings = DescriptorSettings()
+    classifiers: ClassifierSettings = ClassifierSettings()
+
+    @field_validator("descriptor")
+    @classmethod
+    def _is_descriptor(cls, name: str) -> str:
+        if name not in DESCRIPTORS:
+            raise ValueError(f"one of {', '.join(DESCRIPTORS)}")
+        return name
+
+    @field_validator("classifier")
+    @classmethod
+    def _is_classifier(cls, name: str) -> str:
+        if name not in CLASSIFIERS:
+            raise ValueError(f"one of {', '.join(CLASSIFIERS)}")
+        return name
+
+    def make_descriptor(self, features: FeatureSettings) -> ImageDescriptor:
+        """Return the chosen descriptor, which has learned nothing yet.
+
+        Parameters
+        ----------
+        features : FeatureSettings
+            How local features are extracted, should it look at any.
+        """
+        settings: Settings = getattr(self.descriptors, self.descriptor)
+        return DESCRIPTORS[self.descriptor](settings, features)
+
+    def make_classifier(self) -> PlaceClassifier:
+        """Return the chosen classifier, which has learned nothing yet."""
+        settings: Settings = getattr(self.classifiers, self.classifier)
+        return CLASSIFIERS[self.classifier](**settings.model_dump())

@@ -1,0 +1,57 @@
+"""What a temporal model is: from the looks around a frame to its label."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roomgraph.semantics.temporal.look import Look
+
+if TYPE_CHECKING:
+    from roomgraph.semantics.temporal.settings import LabellerSettings
+
+
+@dataclass(frozen=True, slots=True)
+class Belief:
+    """The label of a frame, and the probability (n_labels,) of each label by id."""
+
+    label_id: int
+    probabilities: NDArray[np.float64]
+
+
+class TemporalModel(Protocol):
+    """Labels a frame by what the frames around it look like.
+
+    Parameters
+    ----------
+    transitions : (K, K) float64
+        Chance of each kind of place (column) after leaving a kind (row).
+    settings : LabellerSettings
+        How many frames count, and how long one stays in a kind of place.
+    """
+
+    name: ClassVar[str]
+
+    def __init__(self, transitions: NDArray[np.float64], settings: LabellerSettings) -> None: ...
+
+    def advance(self, look: Look) -> None:
+        """Take a look for good: `belief` will not be given it again."""
+        ...
+
+    def belief(self, order: int, looks: Sequence[Look], voters: Sequence[Look]) -> Belief:
+        """Return what is believed of a frame.
+
+        Parameters
+        ----------
+        order : int
+            The frame's.
+        looks : sequence of Look
+            All that were not taken for good yet, in time order.
+        voters : sequence of Look
+            Those around the frame that show a known place, the nearest first; at least one.
+        """
+        ...
