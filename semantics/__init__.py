@@ -1,1 +1,5 @@
-"""The semantic layer: visual words, place labels and the semantic topological graph."""
+"""Visual words, place labels and the semantic topological graph."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

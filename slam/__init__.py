@@ -1,1 +1,5 @@
 """SLAM: camera motion, planes, loops, pose graph and map."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,11 @@
+from .app.answers.run import Run as Run
+from .app.answers.run import open_run as open_run
+from .datasets.readers.registry import open_sequence as open_sequence
+from .datasets.sequence import Sequence as Sequence
+from .semantics.graph.graph import SemanticGraph as SemanticGraph
+from .semantics.recognition.model import PlaceModel as PlaceModel
+from .semantics.recognition.model_files import load_model as load_model
+from .slam.slam import Slam as Slam
+from .slam.slam import SlamSettings as SlamSettings
+
+__version__: str

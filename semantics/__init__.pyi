@@ -1,0 +1,14 @@
+from .errors import SemanticsError as SemanticsError
+from .graph.files import read_graph_json as read_graph_json
+from .graph.graph import SemanticGraph as SemanticGraph
+from .graph.routing import find_route as find_route
+from .graph.topology import TopologicalMap as TopologicalMap
+from .labels import LabelSpace as LabelSpace
+from .recognition.examples import folder_examples as folder_examples
+from .recognition.examples import sequence_examples as sequence_examples
+from .recognition.model import PlaceModel as PlaceModel
+from .recognition.model import PlacePrediction as PlacePrediction
+from .recognition.model_files import load_model as load_model
+from .recognition.model_files import save_model as save_model
+from .recognition.training import train as train
+from .temporal.labeller import PlaceLabeller as PlaceLabeller
