@@ -6,6 +6,7 @@ import pytest
 
 from roomgraph.datasets.camera import Camera, DepthCamera, Intrinsics, write_camera
 from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.association import associate, typical_offset
 from roomgraph.datasets.readers.images import (
     read_colour,
@@ -13,7 +14,6 @@ from roomgraph.datasets.readers.images import (
     undistort_colour,
     undistort_depth,
 )
-from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.registry import READERS, guess_layout, open_sequence
 from roomgraph.datasets.sequence import Sequence, frames_of, select
 
@@ -300,6 +300,6 @@ def test_layouts_and_files_of_no_layout(tmp_path, tum):
     with pytest.raises(DatasetError, match=r"--dataset tmu; expected .* or color/ .*\(folder\)"):
         open_sequence(tum, "tmu")
     (tmp_path / "notes.txt").write_text("")
-    with pytest.raises(DatasetError, match="known layout.*got a file"):
+    with pytest.raises(DatasetError, match=r"known layout.*got a file"):
         open_sequence(tmp_path / "notes.txt")
     assert all(reader.name == name for name, reader in READERS.items())
