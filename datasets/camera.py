@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.files import write_text
 
 # Calibrations published with the TUM RGB-D benchmark, by the name of the camera in the sequence's
 # folder: fx, fy, cx, cy, then k1, k2, p1, p2, k3.
@@ -194,12 +195,12 @@ def _is_motion(T: NDArray[np.float64]) -> bool:
 def write_camera(
     path: Path, intrinsics: Intrinsics, depth_scale: float, depth: DepthCamera | None = None
 ) -> None:
-    """Write a camera in the form that `read_camera` reads."""
+    """Write a camera in the form that `read_camera` reads, through a temporary file."""
     values = _values(intrinsics) | {"depth_scale": depth_scale}
     if depth is not None:
         motion = {"T_colour_depth": depth.T_colour_depth.tolist()}
         values["depth"] = _values(depth.intrinsics) | motion
-    path.write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(values, indent=1) + "\n")
 
 
 def _values(intrinsics: Intrinsics) -> dict[str, Any]:

@@ -1,20 +1,26 @@
-"""Writing so that a file is either whole or not there."""
+"""Writing so that a file is either whole or not there, also after the power fails."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give a temporary name beside `path`; rename it to `path` when the block ends well."""
+    """Give a temporary name beside `path`; rename it to `path` when the block ends well.
+
+    The bytes are on the disk before the new name is, or a crash could leave an empty file.
+    """
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         yield temporary
+        with temporary.open("rb+") as file:
+            os.fsync(file.fileno())
         temporary.replace(path)
+        _flush_folder(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -23,3 +29,21 @@ def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text through a temporary file."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+
+
+def replace_folder(temporary: Path, path: Path) -> None:
+    """Give a folder its name, its files on the disk first: all at once, as they may be many."""
+    if hasattr(os, "sync"):
+        os.sync()
+    temporary.replace(path)
+    _flush_folder(path.parent)
+
+
+def _flush_folder(folder: Path) -> None:
+    """Put a folder's names on the disk, where the system lets folders be flushed."""
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
