@@ -151,8 +151,8 @@ def _intrinsics(values: dict[str, Any]) -> Intrinsics:
     else:
         fx, fy, cx, cy = (float(values[k]) for k in ("fx", "fy", "cx", "cy"))
     return Intrinsics(
-        int(values["width"]), int(values["height"]), fx, fy, cx, cy,
-        tuple(float(v) for v in values.get("distortion", ())),
+        width=int(values["width"]), height=int(values["height"]), fx=fx, fy=fy, cx=cx, cy=cy,
+        distortion=tuple(float(v) for v in values.get("distortion", ())),
     )  # fmt: skip
 
 
@@ -217,5 +217,7 @@ def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
         if key in name or key.replace("freiburg", "fr") + "_" in name + "_":
             values, origin = published, f"published TUM calibration of {key}"
     fx, fy, cx, cy, *distortion = values
-    intrinsics = Intrinsics(width, height, fx, fy, cx, cy, tuple(distortion))
+    intrinsics = Intrinsics(
+        width=width, height=height, fx=fx, fy=fy, cx=cx, cy=cy, distortion=tuple(distortion)
+    )
     return Camera(intrinsics, TUM_DEPTH_SCALE, origin)

@@ -35,8 +35,8 @@ class InputOptions(Settings):
             `dataset` names no layout, the sequence cannot be opened, or no frame is left of it.
         """
         return open_input(
-            self.sequence, self.dataset, self.camera, self.depth_scale,
-            self.start, self.frames, self.stride,
+            self.sequence, self.dataset, camera=self.camera, depth_scale=self.depth_scale,
+            start=self.start, frames=self.frames, stride=self.stride,
         )  # fmt: skip
 
 

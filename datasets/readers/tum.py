@@ -46,7 +46,8 @@ class TumReader:
             f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
         )
         return RecordedSequence(
-            root.resolve().name, root, camera, stamps, tuple(colour), tuple(depth),
+            root.resolve().name, root, camera, stamps,
+            colour_files=tuple(colour), depth_files=tuple(depth),
             ground_truth=read_tum(truth) if truth.exists() else None,
             places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip

@@ -81,8 +81,9 @@ def evaluate(
     terminal = Terminal(quiet)
     if protocol is not None or run is None:
         return _experiment(
-            protocol, run, data or [], output, preset, seed or 0, overwrite, terminal
-        )
+            protocol, run, data or [], terminal, output=output, preset=preset, seed=seed or 0,
+            overwrite=overwrite,
+        )  # fmt: skip
     if output is not None:
         refuse_existing(output, overwrite)
     found = evaluate_run(RunFolder(run), groundtruth, places)
@@ -96,11 +97,12 @@ def _experiment(
     protocol: str | None,
     run: Path | None,
     data: list[Path],
+    terminal: Terminal,
+    *,
     output: Path | None,
     preset: str,
     seed: int,
     overwrite: bool,
-    terminal: Terminal,
 ) -> None:
     from threadpoolctl import threadpool_limits
 
