@@ -6,6 +6,7 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import perf_counter
 
 from rich.console import Console, RenderableType
 from rich.markup import escape
@@ -22,6 +23,8 @@ from rich.text import Text
 Advance = Callable[[int, int, str], None]
 
 LOGGER = "roomgraph"
+# Lines in place of a bar are a tenth of the work and this many seconds apart at least.
+LINES_PER_WORK, BETWEEN_LINES_S = 10, 15.0
 
 
 class Terminal:
@@ -42,12 +45,22 @@ class Terminal:
     @contextmanager
     def working(self, text: str) -> Iterator[None]:
         """Say what is going on while the block runs, where nothing can be counted."""
+        if not self.console.is_terminal:
+            self.say(text)
         with self.console.status(escape(text)):
             yield
 
     @contextmanager
-    def progress(self, title: str) -> Iterator[Advance]:
-        """Show a bar while the block runs; call what it gives with done, total and a remark."""
+    def progress(self, title: str, unit: str = "") -> Iterator[Advance]:
+        """Show a bar while the block runs; call what it gives with done, total and a remark.
+
+        Where the output is no terminal, a line is printed now and then, which counts in `unit`.
+        """
+        if not self.console.is_terminal:
+            lines = _ProgressLines(title, unit, self.say)
+            yield lines.advance
+            lines.end()
+            return
         columns = (
             SpinnerColumn(), TextColumn("[bold]{task.description}"), BarColumn(),
             MofNCompleteColumn(), TimeRemainingColumn(), TextColumn("[dim]{task.fields[remark]}"),
@@ -56,7 +69,7 @@ class Terminal:
             task = bar.add_task(escape(title), total=None, remark="")
 
             def advance(done: int, total: int, remark: str = "") -> None:
-                bar.update(task, completed=done, total=total, remark=escape(remark))
+                bar.update(task, completed=done, total=total, remark=escape(remark or unit))
 
             yield advance
 
@@ -82,3 +95,31 @@ class Terminal:
             for handler in handlers:
                 logger.removeHandler(handler)
                 handler.close()
+
+
+class _ProgressLines:
+    """Tells how far some work is in lines that a file or a log can hold."""
+
+    def __init__(self, title: str, unit: str, say: Callable[[str], None]) -> None:
+        self._title, self._unit, self._say = title, unit, say
+        self._begun_s = self._said_s = perf_counter()
+        self._done = self._total = self._said = 0
+        say(f"{title} ...")
+
+    def advance(self, done: int, total: int, remark: str = "") -> None:
+        """Take the count; print it if that is due. The last count is left to `end`."""
+        self._done, self._total = done, total
+        is_tenth = (done - self._said) * LINES_PER_WORK >= total
+        if is_tenth and done < total and perf_counter() - self._said_s >= BETWEEN_LINES_S:
+            self._said, self._said_s = done, perf_counter()
+            self._print(remark)
+
+    def end(self) -> None:
+        """Print how much was done, and the time it took."""
+        self._print("" if self._total else "done")
+
+    def _print(self, remark: str) -> None:
+        count = f"{self._done} of {self._total} {self._unit}".rstrip() if self._total else ""
+        parts = [part for part in (count, remark) if part]
+        took = f"{perf_counter() - self._begun_s:.0f} s"
+        self._say(f"{self._title}: {', '.join([*parts, took])}")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.files import write_text
 
 # Calibrations published with the TUM RGB-D benchmark, by the name of the camera in the sequence's
 # folder: fx, fy, cx, cy, then k1, k2, p1, p2, k3.
@@ -150,8 +151,8 @@ def _intrinsics(values: dict[str, Any]) -> Intrinsics:
     else:
         fx, fy, cx, cy = (float(values[k]) for k in ("fx", "fy", "cx", "cy"))
     return Intrinsics(
-        int(values["width"]), int(values["height"]), fx, fy, cx, cy,
-        tuple(float(v) for v in values.get("distortion", ())),
+        width=int(values["width"]), height=int(values["height"]), fx=fx, fy=fy, cx=cx, cy=cy,
+        distortion=tuple(float(v) for v in values.get("distortion", ())),
     )  # fmt: skip
 
 
@@ -194,12 +195,12 @@ def _is_motion(T: NDArray[np.float64]) -> bool:
 def write_camera(
     path: Path, intrinsics: Intrinsics, depth_scale: float, depth: DepthCamera | None = None
 ) -> None:
-    """Write a camera in the form that `read_camera` reads."""
+    """Write a camera in the form that `read_camera` reads, through a temporary file."""
     values = _values(intrinsics) | {"depth_scale": depth_scale}
     if depth is not None:
         motion = {"T_colour_depth": depth.T_colour_depth.tolist()}
         values["depth"] = _values(depth.intrinsics) | motion
-    path.write_text(json.dumps(values, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(values, indent=1) + "\n")
 
 
 def _values(intrinsics: Intrinsics) -> dict[str, Any]:
@@ -216,5 +217,7 @@ def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
         if key in name or key.replace("freiburg", "fr") + "_" in name + "_":
             values, origin = published, f"published TUM calibration of {key}"
     fx, fy, cx, cy, *distortion = values
-    intrinsics = Intrinsics(width, height, fx, fy, cx, cy, tuple(distortion))
+    intrinsics = Intrinsics(
+        width=width, height=height, fx=fx, fy=fy, cx=cx, cy=cy, distortion=tuple(distortion)
+    )
     return Camera(intrinsics, TUM_DEPTH_SCALE, origin)

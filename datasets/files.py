@@ -1,21 +1,27 @@
-"""Writing so that a file is either whole or not there."""
+"""Writing so that a file is either whole or not there, also after the power fails."""
 
 from __future__ import annotations
 
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give a temporary name beside `path`; rename it to `path` when the block ends well."""
+    """Give a temporary name beside `path`; rename it to `path` when the block ends well.
+
+    The bytes are on the disk before the new name is, or a crash could leave an empty file.
+    """
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         yield temporary
+        with temporary.open("rb+") as file:
+            os.fsync(file.fileno())
         temporary.replace(path)
+        _flush_folder(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -29,9 +35,12 @@ def write_text(path: Path, text: str) -> None:
 def replace_folder(fresh: Path, path: Path) -> None:
     """Put the finished folder `fresh` in the place of `path`, which may be there already.
 
-    Both lie beside each other. The old folder is only removed once the new one stands; if that
-    fails, the old one is put back.
+    Both lie beside each other. The files are on the disk before the folder has its name: all at
+    once, as they may be many. An old folder is only removed once the new one stands; if that
+    fails, it is put back.
     """
+    if hasattr(os, "sync"):
+        os.sync()
     old = path.with_name(f".{path.name}.old.{os.getpid()}")
     if path.exists():
         path.rename(old)
@@ -41,4 +50,15 @@ def replace_folder(fresh: Path, path: Path) -> None:
         if old.exists():
             old.rename(path)
         raise
+    _flush_folder(path.parent)
     shutil.rmtree(old, ignore_errors=True)
+
+
+def _flush_folder(folder: Path) -> None:
+    """Put a folder's names on the disk, where the system lets folders be flushed."""
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

@@ -38,8 +38,8 @@ class PingPongReplay:
         indices = np.tile(lap, laps)
         self._stamps_s = _running(source.stamps_s[indices])
         self._frames = Selection(
-            source, tuple(int(i) for i in indices), source.name, source.root, source.camera,
-            None, None, source.notes,
+            source, tuple(int(i) for i in indices), name=source.name, root=source.root,
+            camera=source.camera, ground_truth=None, places=None, notes=source.notes,
         )  # fmt: skip
         self.ground_truth = _repeated(source, indices, self._stamps_s)
         self.places = None
@@ -60,6 +60,10 @@ class PingPongReplay:
     def with_camera(self, camera: Camera) -> PingPongReplay:
         """Return the same laps, taken by another camera."""
         return PingPongReplay(self._source.with_camera(camera), self._laps)
+
+    def with_notes(self, *notes: str) -> PingPongReplay:
+        """Return the same laps, with more notes."""
+        return PingPongReplay(self._source.with_notes(*notes), self._laps)
 
 
 def _running(stamps_s: NDArray[np.float64]) -> NDArray[np.float64]:

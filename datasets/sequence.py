@@ -69,6 +69,10 @@ class Sequence(Protocol):
         """Return the same images as another camera would have taken them."""
         ...
 
+    def with_notes(self, *notes: str) -> Sequence:
+        """Return the same frames, with these notes after those that there are."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class Selection:
@@ -99,6 +103,10 @@ class Selection:
         """Return the same part, taken by another camera."""
         return replace(self, source=self.source.with_camera(camera), camera=camera)
 
+    def with_notes(self, *notes: str) -> Selection:
+        """Return the same part, with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
 
 def select(
     sequence: Sequence, start: int = 0, frames: int | None = None, stride: int = 1
@@ -119,8 +127,8 @@ def select(
             got=f"start {start}, frames {frames}", hint="lower --start or raise --frames",
         )  # fmt: skip
     return Selection(
-        sequence, indices, sequence.name, sequence.root, sequence.camera,
-        sequence.ground_truth, sequence.places, sequence.notes,
+        sequence, indices, name=sequence.name, root=sequence.root, camera=sequence.camera,
+        ground_truth=sequence.ground_truth, places=sequence.places, notes=sequence.notes,
     )  # fmt: skip
 
 

@@ -16,6 +16,18 @@ if TYPE_CHECKING:
     from roomgraph.app.settings import AppSettings
     from roomgraph.app.storage.input import InputOptions
 
+
+def _listed(layout: str | None) -> str | None:
+    """Say which layouts there are, if that is asked for, and end."""
+    if layout == "list":
+        from roomgraph.datasets.readers.registry import READERS
+
+        for name, reader in READERS.items():
+            typer.echo(f"{name:10} {reader.files}")
+        raise typer.Exit
+    return layout
+
+
 SequenceArgument = Annotated[
     Path, typer.Argument(metavar="SEQUENCE", help="Folder of an RGB-D sequence.")
 ]
@@ -34,7 +46,11 @@ OverwriteOption = Annotated[
 DatasetOption = Annotated[
     str | None,
     typer.Option(
-        "--dataset", metavar="LAYOUT", help="tum, 7scenes or folder; guessed if left out."
+        "--dataset",
+        metavar="LAYOUT",
+        callback=_listed,
+        is_eager=True,
+        help="Layout of its files, guessed if left out; `list` says which there are.",
     ),
 ]
 CameraOption = Annotated[

@@ -62,7 +62,7 @@ def write_e57(folder: RunFolder, path: Path) -> Notes:
     try:
         import pye57
     except ImportError as error:
-        raise missing_package("pye57", "e57") from error
+        raise missing_package("pye57") from error
 
     points, colours, label_ids = read_cloud(product(folder.map))
     T, notes = T_upright_world(folder)

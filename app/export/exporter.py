@@ -69,9 +69,9 @@ def named(path: Path, *suffixes: str) -> Path:
     return path
 
 
-def missing_package(package: str, extra: str) -> AppError:
+def missing_package(package: str) -> AppError:
     """Return what to say where an optional package is not installed."""
     return AppError(
         f"the package {package} is not installed", where="roomgraph export",
-        hint=f"install it with: pip install 'roomgraph[{extra}]'",
+        hint=f"install it with: pip install {package}",
     )  # fmt: skip

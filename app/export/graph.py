@@ -84,7 +84,7 @@ def write_hydra(folder: RunFolder, path: Path) -> Notes:
     try:
         import spark_dsg
     except ImportError as error:
-        raise missing_package("spark-dsg", "hydra") from error
+        raise missing_package("spark-dsg") from error
     graph = read_graph_json(folder.graph_json)
     T, notes = T_upright_world(folder)
     scene = _scene(spark_dsg, graph, se3.transform(T, graph.positions))

@@ -41,8 +41,8 @@ def render(
     from roomgraph.datasets.synthetic.writer import write_sequences
 
     title = f"Rendering building {settings.seed} ({', '.join(directories)})"
-    with terminal.progress(title) as advance:
-        write_sequences(directories, settings, lambda done, total: advance(done, total, "frames"))
+    with terminal.progress(title, "frames") as advance:
+        write_sequences(directories, settings, lambda done, total: advance(done, total, ""))
 
 
 def cached(lights: tuple[Light, ...], settings: BuildingSettings, terminal: Terminal) -> list[Path]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import cast, get_args
 
 import tomli_w
 from pydantic import Field, ValidationError
 
 from roomgraph.app.errors import AppError
 from roomgraph.datasets.files import write_text
-from roomgraph.datasets.readers.registry import Layout, open_sequence
+from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.sequence import Sequence, select
 from roomgraph.datasets.settings import Settings
 
@@ -32,14 +31,12 @@ class InputOptions(Settings):
 
         Raises
         ------
-        AppError
-            `dataset` names no layout.
         DatasetError
-            The sequence cannot be opened, or no frame is left of it.
+            `dataset` names no layout, the sequence cannot be opened, or no frame is left of it.
         """
         return open_input(
-            self.sequence, self.dataset, self.camera, self.depth_scale,
-            self.start, self.frames, self.stride,
+            self.sequence, self.dataset, camera=self.camera, depth_scale=self.depth_scale,
+            start=self.start, frames=self.frames, stride=self.stride,
         )  # fmt: skip
 
 
@@ -56,16 +53,10 @@ def open_input(
 
     Raises
     ------
-    AppError
-        `dataset` names no layout.
     DatasetError
-        The sequence cannot be opened, or no frame is left of it.
+        `dataset` names no layout, the sequence cannot be opened, or no frame is left of it.
     """
-    if dataset is not None and dataset not in get_args(Layout):
-        raise AppError(
-            "no such layout", where="--dataset", expected=" or ".join(get_args(Layout)), got=dataset
-        )
-    sequence = open_sequence(root, cast(Layout | None, dataset), camera, depth_scale)
+    sequence = open_sequence(root, dataset, camera, depth_scale)
     return select(sequence, start, frames, stride)
 
 

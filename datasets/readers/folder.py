@@ -19,48 +19,57 @@ CAMERA_NAMES = ("camera.json", "camera_intrinsic.json", "intrinsic.json", "intri
 FRAME_RATE_HZ = 30.0
 
 
-def is_folder(root: Path) -> bool:
-    """Whether the folder holds a colour and a depth folder."""
-    return _subfolder(root, COLOUR_NAMES) is not None and _subfolder(root, DEPTH_NAMES) is not None
+class FolderReader:
+    """Folders of colour and depth images with a camera file."""
 
+    name = "folder"
+    files = "color/ + depth/"
 
-def open_folder(root: Path, camera: Camera | None = None) -> RecordedSequence:
-    """Open ``color/``, ``depth/`` (or their usual other names) and ``camera.json``.
+    def recognises(self, root: Path) -> bool:
+        """Whether the folder holds a colour and a depth folder."""
+        return (
+            _subfolder(root, COLOUR_NAMES) is not None and _subfolder(root, DEPTH_NAMES) is not None
+        )
 
-    Images are paired by file name where the names agree, else by order. Stamps come from the
-    names where these are numbers with a decimal point, else from the count at 30 Hz.
+    def open(self, root: Path, camera: Camera | None = None) -> RecordedSequence:
+        """Open ``color/``, ``depth/`` (or their usual other names) and ``camera.json``.
 
-    Raises
-    ------
-    DatasetError
-        A folder or the camera is missing, or nothing pairs up.
-    """
-    colour_root = _needed(root, COLOUR_NAMES, "colour images")
-    depth_root = _needed(root, DEPTH_NAMES, "depth images")
-    colour = {path.stem: path for path in _images(colour_root)}
-    depth = {path.stem: path for path in _images(depth_root)}
-    shared = [stem for stem in colour if stem in depth]
-    if shared:
-        pairs = [(stem, colour[stem], depth[stem]) for stem in shared]
-    elif len(colour) == len(depth):
-        pairs = [(c, colour[c], depth[d]) for c, d in zip(colour, depth, strict=True)]
-    else:
-        raise DatasetError(
-            "colour and depth images do not pair up", where=root,
-            expected="equal file names, or as many of the one as of the other",
-            got=f"{len(colour)} colour and {len(depth)} depth images",
+        Images are paired by file name where the names agree, else by order. Stamps come from the
+        names where these are numbers with a decimal point, else from the count at 30 Hz.
+
+        Raises
+        ------
+        DatasetError
+            A folder or the camera is missing, or nothing pairs up.
+        """
+        colour_root = _needed(root, COLOUR_NAMES, "colour images")
+        depth_root = _needed(root, DEPTH_NAMES, "depth images")
+        colour = {path.stem: path for path in _images(colour_root)}
+        depth = {path.stem: path for path in _images(depth_root)}
+        shared = [stem for stem in colour if stem in depth]
+        if shared:
+            pairs = [(stem, colour[stem], depth[stem]) for stem in shared]
+        elif len(colour) == len(depth):
+            pairs = [(c, colour[c], depth[d]) for c, d in zip(colour, depth, strict=True)]
+        else:
+            raise DatasetError(
+                "colour and depth images do not pair up", where=root,
+                expected="equal file names, or as many of the one as of the other",
+                got=f"{len(colour)} colour and {len(depth)} depth images",
+            )  # fmt: skip
+        camera = camera or _camera_of(root)
+        stamps = _stamps([stem for stem, _, _ in pairs])
+        dropped = len(colour) - len(pairs), len(depth) - len(pairs)
+        notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units a metre"]
+        if any(dropped):
+            notes.append(
+                f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner"
+            )
+        return RecordedSequence(
+            root.resolve().name, root, camera, stamps,
+            tuple(c for _, c, _ in pairs), tuple(d for _, _, d in pairs),
+            ground_truth=_ground_truth(root), places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip
-    camera = camera or _camera_of(root)
-    stamps = _stamps([stem for stem, _, _ in pairs])
-    dropped = len(colour) - len(pairs), len(depth) - len(pairs)
-    notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units a metre"]
-    if any(dropped):
-        notes.append(f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner")
-    return RecordedSequence(
-        root.resolve().name, root, camera, stamps,
-        tuple(c for _, c, _ in pairs), tuple(d for _, _, d in pairs),
-        ground_truth=_ground_truth(root), places=places_beside(root), notes=tuple(notes),
-    )  # fmt: skip
 
 
 def _subfolder(root: Path, names: tuple[str, ...]) -> Path | None:

@@ -60,6 +60,10 @@ class RecordedSequence:
         """Return the same files, taken by another camera."""
         return replace(self, camera=camera)
 
+    def with_notes(self, *notes: str) -> RecordedSequence:
+        """Return the same files, with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
 
 def places_beside(root: Path) -> PlaceTruth | None:
     """Read ``places.csv`` where the folder has one."""

@@ -2,50 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Literal, get_args
 
 import numpy as np
 
-from roomgraph.datasets.camera import Camera, read_camera
+from roomgraph.datasets.camera import DepthCamera, read_camera
 from roomgraph.datasets.errors import DatasetError
-from roomgraph.datasets.readers.folder import is_folder, open_folder
-from roomgraph.datasets.readers.recorded import RecordedSequence
-from roomgraph.datasets.readers.seven_scenes import is_seven_scenes, open_seven_scenes
-from roomgraph.datasets.readers.tum import is_tum, open_tum
+from roomgraph.datasets.readers.folder import FolderReader
+from roomgraph.datasets.readers.reader import Reader
+from roomgraph.datasets.readers.seven_scenes import SevenScenesReader
+from roomgraph.datasets.readers.tum import TumReader
+from roomgraph.datasets.sequence import Sequence
 
-Layout = Literal["tum", "7scenes", "folder"]
-
-
-@dataclass(frozen=True, slots=True)
-class Reader:
-    """How a layout is recognised and opened."""
-
-    recognises: Callable[[Path], bool]
-    open: Callable[[Path, Camera | None], RecordedSequence]
-
-
-READERS: dict[Layout, Reader] = {
-    "tum": Reader(is_tum, open_tum),
-    "7scenes": Reader(is_seven_scenes, open_seven_scenes),
-    "folder": Reader(is_folder, open_folder),
-}
+# A layout is a line here; where several recognise a folder, the first one opens it.
+_READERS: tuple[Reader, ...] = (
+    TumReader(),
+    SevenScenesReader(),
+    FolderReader(),
+)
+READERS: dict[str, Reader] = {reader.name: reader for reader in _READERS}
 
 
 def open_sequence(
     root: Path,
-    layout: Layout | None = None,
+    layout: str | None = None,
     camera: Path | None = None,
     depth_scale: float | None = None,
-) -> RecordedSequence:
-    """Open a folder of RGB-D frames.
+) -> Sequence:
+    """Open a recording of RGB-D frames.
 
     Parameters
     ----------
     root : Path
-        The sequence's folder.
+        The sequence's folder, or its file if the layout is a single file.
     layout : str, optional
         One of `READERS`; guessed from the folder's files if not given.
     camera : Path, optional
@@ -56,31 +46,25 @@ def open_sequence(
     Raises
     ------
     DatasetError
-        The folder is missing, empty or of no known layout, or the reader refuses it.
+        The folder is missing, empty or of no known layout, there is no such layout, or the reader
+        refuses it.
     """
-    if not root.is_dir():
+    if not root.exists():
         raise DatasetError(
             "no such folder", where=root, expected="a folder with an RGB-D sequence",
-            got="a file" if root.exists() else "nothing there",
+            got="nothing there",
         )  # fmt: skip
-    reader = READERS[layout or guess_layout(root)]
+    reader = reader_named(layout or guess_layout(root))
     sequence = reader.open(root, read_camera(camera) if camera else None)
-    depth = sequence.camera.depth
-    if depth is not None:
-        beside_mm = 1000 * np.linalg.norm(depth.T_colour_depth[:3, 3])
-        note = (
-            f"depth comes from a camera of its own, {depth.intrinsics.width}x"
-            f"{depth.intrinsics.height}, fx {depth.intrinsics.fx:g}, {beside_mm:.0f} mm beside "
-            "the colour camera; it is registered to that"
-        )
-        sequence = replace(sequence, notes=(*sequence.notes, note))
+    if sequence.camera.depth is not None:
+        sequence = sequence.with_notes(_registered(sequence.camera.depth))
     if depth_scale is not None:
-        sequence = replace(sequence, camera=replace(sequence.camera, depth_scale=depth_scale))
+        sequence = sequence.with_camera(replace(sequence.camera, depth_scale=depth_scale))
     return sequence
 
 
-def guess_layout(root: Path) -> Layout:
-    """Return the layout that the folder's files speak of.
+def guess_layout(root: Path) -> str:
+    """Return the name of the layout that the folder's files speak of.
 
     Raises
     ------
@@ -90,10 +74,39 @@ def guess_layout(root: Path) -> Layout:
     for name, reader in READERS.items():
         if reader.recognises(root):
             return name
-    found = sorted(path.name for path in root.iterdir())[:4]
+    found = sorted(path.name for path in root.iterdir())[:4] if root.is_dir() else ["a file"]
     raise DatasetError(
-        "not an RGB-D sequence of a known layout", where=root,
-        expected="rgb.txt + depth.txt (tum), frame-*.color.* (7scenes), color/ + depth/ (folder)",
+        "not an RGB-D sequence of a known layout", where=root, expected=", ".join(described()),
         got=", ".join(found) if found else "an empty folder",
-        hint=f"force a layout with --dataset {'|'.join(get_args(Layout))}",
+        hint=f"force a layout with --dataset {'|'.join(READERS)}",
     )  # fmt: skip
+
+
+def reader_named(layout: str) -> Reader:
+    """Return the reader of a layout.
+
+    Raises
+    ------
+    DatasetError
+        There is no such layout.
+    """
+    if layout not in READERS:
+        raise DatasetError(
+            "no such layout", where=f"--dataset {layout}", expected=" or ".join(described())
+        )
+    return READERS[layout]
+
+
+def described() -> list[str]:
+    """Return each layout as ``its files (its name)``, for a person to read."""
+    return [f"{reader.files} ({name})" for name, reader in READERS.items()]
+
+
+def _registered(depth: DepthCamera) -> str:
+    """Return what a person should know of a depth camera beside the colour camera."""
+    beside_mm = 1000 * np.linalg.norm(depth.T_colour_depth[:3, 3])
+    return (
+        f"depth comes from a camera of its own, {depth.intrinsics.width}x"
+        f"{depth.intrinsics.height}, fx {depth.intrinsics.fx:g}, {beside_mm:.0f} mm beside "
+        "the colour camera; it is registered to that"
+    )

@@ -19,46 +19,51 @@ DEPTH_SCALE = 1000.0
 PUBLISHED = (585.0, 585.0, 320.0, 240.0)
 
 
-def is_seven_scenes(root: Path) -> bool:
-    """Whether the folder looks like a 7-Scenes sequence."""
-    return any(root.glob("frame-*.color.*"))
+class SevenScenesReader:
+    """The layout of Microsoft's 7-Scenes."""
 
+    name = "7scenes"
+    files = "frame-*.color.*"
 
-def open_seven_scenes(root: Path, camera: Camera | None = None) -> RecordedSequence:
-    """Open ``frame-XXXXXX.color.*``, ``.depth.png`` (millimetres) and ``.pose.txt``.
+    def recognises(self, root: Path) -> bool:
+        """Whether the folder looks like a 7-Scenes sequence."""
+        return any(root.glob("frame-*.color.*"))
 
-    Stamps are made up at 30 Hz from the frames' numbers. Frames without depth are dropped and
-    counted in the notes.
+    def open(self, root: Path, camera: Camera | None = None) -> RecordedSequence:
+        """Open ``frame-XXXXXX.color.*``, ``.depth.png`` (millimetres) and ``.pose.txt``.
 
-    Raises
-    ------
-    DatasetError
-        No frame is complete, or a pose or the camera cannot be read.
-    """
-    names = (path.name.split(".")[0] for path in root.glob("frame-*.color.*"))
-    stems = sorted((n for n in names if re.fullmatch(r"frame-\d+", n)), key=_number)
-    whole = [stem for stem in stems if (root / f"{stem}.depth.png").exists()]
-    colour = [next(root.glob(f"{stem}.color.*")) for stem in whole]
-    if not whole:
-        raise DatasetError(
-            "no complete frame", where=root,
-            expected="frame-XXXXXX.color.png|jpg with frame-XXXXXX.depth.png",
-            got=f"{len(stems)} colour images, none with depth",
+        Stamps are made up at 30 Hz from the frames' numbers. Frames without depth are dropped and
+        counted in the notes.
+
+        Raises
+        ------
+        DatasetError
+            No frame is complete, or a pose or the camera cannot be read.
+        """
+        names = (path.name.split(".")[0] for path in root.glob("frame-*.color.*"))
+        stems = sorted((n for n in names if re.fullmatch(r"frame-\d+", n)), key=_number)
+        whole = [stem for stem in stems if (root / f"{stem}.depth.png").exists()]
+        colour = [next(root.glob(f"{stem}.color.*")) for stem in whole]
+        if not whole:
+            raise DatasetError(
+                "no complete frame", where=root,
+                expected="frame-XXXXXX.color.png|jpg with frame-XXXXXX.depth.png",
+                got=f"{len(stems)} colour images, none with depth",
+            )  # fmt: skip
+        camera = camera or _camera_of(root, colour[0])
+        stamps = np.array([_number(stem) for stem in whole]) / FRAME_RATE_HZ
+        notes = [
+            f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units a metre, "
+            f"from {camera.origin}"
+        ]
+        if len(stems) > len(whole):
+            notes.append(f"dropped {len(stems) - len(whole)} colour images without depth")
+        return RecordedSequence(
+            root.resolve().name, root, camera, stamps, tuple(colour),
+            tuple(root / f"{stem}.depth.png" for stem in whole),
+            ground_truth=_read_poses(root, whole, stamps),
+            places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip
-    camera = camera or _camera_of(root, colour[0])
-    stamps = np.array([_number(stem) for stem in whole]) / FRAME_RATE_HZ
-    notes = [
-        f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units a metre, "
-        f"from {camera.origin}"
-    ]
-    if len(stems) > len(whole):
-        notes.append(f"dropped {len(stems) - len(whole)} colour images without depth")
-    return RecordedSequence(
-        root.resolve().name, root, camera, stamps, tuple(colour),
-        tuple(root / f"{stem}.depth.png" for stem in whole),
-        ground_truth=_read_poses(root, whole, stamps),
-        places=places_beside(root), notes=tuple(notes),
-    )  # fmt: skip
 
 
 def _number(stem: str) -> int:

@@ -15,36 +15,42 @@ from roomgraph.datasets.readers.recorded import RecordedSequence, places_beside
 from roomgraph.datasets.trajectory import read_tum
 
 
-def is_tum(root: Path) -> bool:
-    """Whether the folder looks like a TUM sequence."""
-    return any((root / name).exists() for name in ("rgb.txt", "associations.txt"))
+class TumReader:
+    """The layout of the TUM RGB-D benchmark."""
 
+    name = "tum"
+    files = "rgb.txt + depth.txt"
 
-def open_tum(root: Path, camera: Camera | None = None) -> RecordedSequence:
-    """Open a TUM sequence: ``associations.txt`` if there, else ``rgb.txt`` and ``depth.txt``.
+    def recognises(self, root: Path) -> bool:
+        """Whether the folder looks like a TUM sequence."""
+        return any((root / name).exists() for name in ("rgb.txt", "associations.txt"))
 
-    Raises
-    ------
-    DatasetError
-        A list is missing or not understood, or no colour image has a depth image within 0.02 s.
-    """
-    if (root / "associations.txt").exists():
-        stamps, colour, depth = _read_associations(root / "associations.txt")
-        notes = [f"{len(stamps)} pairs from associations.txt"]
-    else:
-        stamps, colour, depth, notes = _associate(root)
-    camera = camera or _camera_of(root, colour[0])
-    truth = root / "groundtruth.txt"
-    intrinsics = camera.intrinsics
-    notes.append(
-        f"camera {intrinsics.width}x{intrinsics.height}, fx {intrinsics.fx:g}, "
-        f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
-    )
-    return RecordedSequence(
-        root.resolve().name, root, camera, stamps, tuple(colour), tuple(depth),
-        ground_truth=read_tum(truth) if truth.exists() else None,
-        places=places_beside(root), notes=tuple(notes),
-    )  # fmt: skip
+    def open(self, root: Path, camera: Camera | None = None) -> RecordedSequence:
+        """Open a TUM sequence: ``associations.txt`` if there, else ``rgb.txt`` and ``depth.txt``.
+
+        Raises
+        ------
+        DatasetError
+            A list is missing or not understood, or no colour image has a depth image within 0.02 s.
+        """
+        if (root / "associations.txt").exists():
+            stamps, colour, depth = _read_associations(root / "associations.txt")
+            notes = [f"{len(stamps)} pairs from associations.txt"]
+        else:
+            stamps, colour, depth, notes = _associate(root)
+        camera = camera or _camera_of(root, colour[0])
+        truth = root / "groundtruth.txt"
+        intrinsics = camera.intrinsics
+        notes.append(
+            f"camera {intrinsics.width}x{intrinsics.height}, fx {intrinsics.fx:g}, "
+            f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
+        )
+        return RecordedSequence(
+            root.resolve().name, root, camera, stamps,
+            colour_files=tuple(colour), depth_files=tuple(depth),
+            ground_truth=read_tum(truth) if truth.exists() else None,
+            places=places_beside(root), notes=tuple(notes),
+        )  # fmt: skip
 
 
 def _associate(root: Path) -> tuple[NDArray[np.float64], list[Path], list[Path], list[str]]:

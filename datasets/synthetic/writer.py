@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets.camera import TUM_DEPTH_SCALE, write_camera
 from roomgraph.datasets.errors import DatasetError
-from roomgraph.datasets.files import write_text
+from roomgraph.datasets.files import replace_folder, write_text
 from roomgraph.datasets.places import PlaceTruth, write_places
 from roomgraph.datasets.synthetic.building import Building, build
 from roomgraph.datasets.synthetic.renderer import Rendered, Renderer
@@ -74,7 +74,7 @@ def write_sequences(
     try:
         _write(temporary, settings, progress)
         for light, directory in directories.items():
-            temporary[light].replace(directory)
+            replace_folder(temporary[light], directory)
     finally:
         for folder in temporary.values():
             shutil.rmtree(folder, ignore_errors=True)

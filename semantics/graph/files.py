@@ -22,13 +22,14 @@ from roomgraph.semantics.graph.graph import (
 )
 from roomgraph.semantics.labels import LabelSpace
 
-# Version 2 kept no evidence for labels; version 1 knew no places' rooms and no doorways either.
-SCHEMA, VERSION, OLD_VERSIONS = "roomgraph/semantic-graph", 3, (2, 1)
+# Version 3 named the edges "links", as networkx did; version 2 kept no evidence for labels;
+# version 1 knew no places' rooms and no doorways either.
+SCHEMA, VERSION, OLD_VERSIONS = "roomgraph/semantic-graph", 4, (3, 2, 1)
 _UNITS = {"position": "m", "length": "m", "stamp": "s", "area": "m2", "width": "m"}
 
 
 def write_graph_json(path: Path, graph: SemanticGraph) -> None:
-    """Write node-link JSON (what networkx calls ``node_link_graph(edges="links")``)."""
+    """Write node-link JSON: networkx from 3.6 on reads it by ``node_link_graph(content)``."""
     content = {
         "frame": "world",
         "units": _UNITS,
@@ -40,7 +41,7 @@ def write_graph_json(path: Path, graph: SemanticGraph) -> None:
              "histogram": node.signature.round(6).tolist(), "evidence": node.evidence.content()}
             for node in graph.nodes
         ],
-        "links": [
+        "edges": [
             {"source": e.source, "target": e.target, "length": round(e.length_m, 6),
              "kind": str(e.kind)}
             for e in graph.edges
@@ -60,7 +61,8 @@ def read_graph_json(path: Path) -> SemanticGraph:
     """
     content = read_document(path, SCHEMA, VERSION, *OLD_VERSIONS)
     try:
-        return _graph(content["graph"], content["nodes"], content["links"], content)
+        edges = content["edges" if content["version"] > 3 else "links"]
+        return _graph(content["graph"], content["nodes"], edges, content)
     except (KeyError, TypeError, ValueError) as error:
         raise _not_understood(path, error) from error
 
@@ -109,9 +111,9 @@ def read_graphml(path: Path) -> SemanticGraph:
              "evidence": json.loads(values.get("evidence", "null"))}
             for i, values in drawn.nodes(data=True)
         ]  # fmt: skip
-        links = [{"source": a, "target": b, **values} for a, b, values in drawn.edges(data=True)]
+        edges = [{"source": a, "target": b, **values} for a, b, values in drawn.edges(data=True)]
         floor = {key: json.loads(drawn.graph[key]) for key in _FLOOR if key in drawn.graph}
-        return _graph(labels, nodes, links, floor)
+        return _graph(labels, nodes, edges, floor)
     except OSError as error:
         raise SemanticsError("file cannot be read", where=path, got=str(error)) from error
     except (KeyError, TypeError, ValueError, SyntaxError, networkx.NetworkXError) as error:
@@ -154,7 +156,7 @@ def _floor(graph: SemanticGraph) -> dict[str, Any]:
 def _graph(
     labels: dict[str, Any],
     nodes: list[dict[str, Any]],
-    links: list[dict[str, Any]],
+    edges: list[dict[str, Any]],
     floor: dict[str, Any],
 ) -> SemanticGraph:
     colours = tuple((int(r), int(g), int(b)) for r, g, b in labels["colours"])
@@ -162,7 +164,7 @@ def _graph(
     return SemanticGraph(
         LabelSpace(tuple(labels["labels"]), colours),
         tuple(_read_node(node) for node in nodes),
-        tuple(_read_edge(link) for link in links),
+        tuple(_read_edge(edge) for edge in edges),
         tuple(_read_room(values) for values in floor.get("places", ())),
         tuple(_read_doorway(values) for values in floor.get("doorways", ())),
         None if T is None else np.array(T, dtype=np.float64).reshape(4, 4),

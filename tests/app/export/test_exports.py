@@ -4,11 +4,13 @@ import csv
 import json
 import shutil
 import struct
+import sys
 
 import networkx
 import numpy as np
 import pytest
 
+from roomgraph.app.errors import AppError
 from roomgraph.app.export.registry import EXPORTERS
 from roomgraph.app.storage.cloud import read_cloud
 from roomgraph.app.storage.occupancy import read_occupancy
@@ -55,6 +57,19 @@ def test_a_format_is_written_whole_and_not_overwritten_unasked(
         assert roomgraph(monkeypatch, "export", run.root, name, "-o", path, "--quiet") == 1
         arguments = ("export", run.root, name, "-o", path, "--quiet", "--overwrite")
         assert roomgraph(monkeypatch, *arguments) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "module", "package"),
+    [("e57", "pye57", "pye57"), ("hydra", "spark_dsg", "spark-dsg")],
+)
+def test_a_package_that_is_missing_is_named_as_pip_knows_it(
+    run, tmp_path, monkeypatch, name, module, package
+):
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(AppError, match=f"pip install {package}$"):
+        EXPORTERS[name].write(run, tmp_path / EXPORTERS[name].file_name)
+    assert f"(pip install {package})" in EXPORTERS[name].meaning
 
 
 def test_formats_are_listed_and_in_the_help(monkeypatch, capsys):
@@ -211,7 +226,7 @@ def test_graphs_in_networkx_and_pydot(run, export):
 
     graph = read_graph_json(run.graph_json)
     edges = {(e.source, e.target) for e in graph.edges}
-    node_link = networkx.node_link_graph(json.loads(export("json").read_text()), edges="links")
+    node_link = networkx.node_link_graph(json.loads(export("json").read_text()))
     graphml = networkx.read_graphml(export("graphml"), node_type=int)
     (dot,) = pydot.graph_from_dot_file(str(export("dot")))
     assert {tuple(sorted(e)) for e in node_link.edges} == edges

@@ -11,6 +11,7 @@ from roomgraph.app.errors import AppError
 from roomgraph.app.settings import AppSettings, load_settings
 from roomgraph.app.storage.input import InputOptions, read_input, write_input
 from roomgraph.app.storage.run_folder import RunFolder
+from roomgraph.datasets.readers.registry import READERS
 from tests.app.command import roomgraph
 
 
@@ -88,3 +89,17 @@ def test_flags_that_go_together_are_flags_of_their_own():
     assert got["input"] == InputOptions(sequence=Path("walk"), stride=3)
     assert (got["settings"].slam.max_depth_m, got["settings"].seed) == (2.5, 9)
     assert got["quiet"] is False
+
+
+@pytest.mark.parametrize("command", ["run", "label", "bench"])
+def test_the_layouts_are_listed_without_a_sequence(command, monkeypatch, capsys):
+    assert roomgraph(monkeypatch, command, "--dataset", "list") == 0
+    rows = [line.split(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    assert rows == [[name, reader.files] for name, reader in READERS.items()]
+
+
+def test_a_layout_that_is_none_is_one_line(tmp_path, monkeypatch, capsys):
+    assert roomgraph(monkeypatch, "run", tmp_path, "--dataset", "tun") == 1
+    said = capsys.readouterr().err
+    assert said.startswith("roomgraph: no such layout: --dataset tun; expected rgb.txt")
+    assert said.count("\n") == 1

@@ -4,8 +4,9 @@ import cv2
 import numpy as np
 import pytest
 
-from roomgraph.datasets.camera import Intrinsics, write_camera
+from roomgraph.datasets.camera import Camera, DepthCamera, Intrinsics, write_camera
 from roomgraph.datasets.errors import DatasetError
+from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.association import associate, typical_offset
 from roomgraph.datasets.readers.images import (
     read_colour,
@@ -13,7 +14,7 @@ from roomgraph.datasets.readers.images import (
     undistort_colour,
     undistort_depth,
 )
-from roomgraph.datasets.readers.registry import guess_layout, open_sequence
+from roomgraph.datasets.readers.registry import READERS, guess_layout, open_sequence
 from roomgraph.datasets.sequence import Sequence, frames_of, select
 
 WIDTH, HEIGHT = 32, 24
@@ -229,3 +230,76 @@ def test_stamps_too_far_apart(tum):
 
 def test_layout_can_be_guessed(tum, scenes, folder):
     assert [guess_layout(r) for r in (tum, scenes, folder)] == ["tum", "7scenes", "folder"]
+
+
+class Bag:
+    """A sequence that is one file on disk, its frames in memory; no dataclass."""
+
+    ground_truth = places = None
+
+    def __init__(self, root, camera, notes=("from a bag",)):
+        self.name, self.root, self.camera, self.notes = root.stem, root, camera, notes
+        self.stamps_s = np.arange(4) / 10
+
+    def __len__(self):
+        return len(self.stamps_s)
+
+    def __getitem__(self, index):
+        depth = np.full((HEIGHT, WIDTH), index / self.camera.depth_scale, np.float32)
+        colour = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+        return Frame(index, self.stamps_s[index], colour, depth, self.camera.intrinsics)
+
+    def with_camera(self, camera):
+        return Bag(self.root, camera, self.notes)
+
+    def with_notes(self, *notes):
+        return Bag(self.root, self.camera, (*self.notes, *notes))
+
+
+class BagReader:
+    name, files = "bag", "NAME.bag"
+
+    def recognises(self, root):
+        return root.suffix == ".bag"
+
+    def open(self, root, camera=None):
+        return Bag(root, camera or Camera(CAMERA, 1.0, "the bag"))
+
+
+@pytest.fixture
+def bag(tmp_path, monkeypatch):
+    monkeypatch.setitem(READERS, "bag", BagReader())
+    (tmp_path / "walk.bag").write_bytes(b"bag")
+    return tmp_path / "walk.bag"
+
+
+def test_a_new_layout_is_one_line_of_the_registry(bag, tmp_path):
+    assert guess_layout(bag) == "bag"
+    sequence = open_sequence(bag, depth_scale=100)
+    assert isinstance(sequence, Sequence)
+    assert sequence.notes == ("from a bag",)
+    chosen = select(sequence, start=1, stride=2).with_notes("every other frame")
+    assert [frame.depth.max() for frame in frames_of(chosen)] == pytest.approx([0.01, 0.03])
+    assert chosen.notes == ("from a bag", "every other frame")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(DatasetError, match=r"depth\.txt \(tum\).*NAME\.bag \(bag\).*folder\|bag"):
+        guess_layout(tmp_path / "empty")
+
+
+def test_a_depth_camera_is_told_of_whatever_the_layout(bag, tmp_path):
+    apart = np.eye(4)
+    apart[0, 3] = 0.05
+    write_camera(tmp_path / "rig.json", CAMERA, 10.0, DepthCamera(CAMERA, apart))
+    sequence = open_sequence(bag, camera=tmp_path / "rig.json", depth_scale=1)
+    assert sequence.camera.depth_scale == 1
+    assert len(sequence.notes) == 2
+    assert "50 mm beside" in sequence.notes[1]
+
+
+def test_layouts_and_files_of_no_layout(tmp_path, tum):
+    with pytest.raises(DatasetError, match=r"--dataset tmu; expected .* or color/ .*\(folder\)"):
+        open_sequence(tum, "tmu")
+    (tmp_path / "notes.txt").write_text("")
+    with pytest.raises(DatasetError, match=r"known layout.*got a file"):
+        open_sequence(tmp_path / "notes.txt")
+    assert all(reader.name == name for name, reader in READERS.items())

@@ -103,6 +103,9 @@ def test_older_versions_are_still_read(tmp_path, graph):
     path = tmp_path / "graph.json"
     write_graph_json(path, graph)
     content = json.loads(path.read_text())
+    content["links"] = content.pop("edges")
+    path.write_text(json.dumps(content | {"version": 3}))
+    assert_same(read_graph_json(path), graph)
     nodes = tuple(replace(node, evidence=Evidence()) for node in graph.nodes)
     for node in content["nodes"]:
         del node["evidence"]
@@ -112,18 +115,21 @@ def test_older_versions_are_still_read(tmp_path, graph):
         del content[name]
     path.write_text(json.dumps(content | {"version": 1}))
     assert_same(read_graph_json(path), SemanticGraph(graph.labels, nodes, graph.edges))
+    path.write_text(json.dumps(content | {"version": 5}))
+    with pytest.raises(SemanticsError, match="version 4"):
+        read_graph_json(path)
     path.write_text(json.dumps(content | {"version": 4}))
-    with pytest.raises(SemanticsError, match="version 3"):
+    with pytest.raises(SemanticsError, match="KeyError 'edges'"):
         read_graph_json(path)
 
 
 def test_json_says_what_it_is_and_networkx_reads_it(tmp_path, graph):
     write_graph_json(tmp_path / "graph.json", graph)
     content = json.loads((tmp_path / "graph.json").read_text())
-    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 3)
+    assert (content["schema"], content["version"]) == ("roomgraph/semantic-graph", 4)
     assert content["frame"] == "world"
     assert content["units"]["position"] == content["units"]["length"] == "m"
-    drawn = networkx.node_link_graph(content, edges="links")
+    drawn = networkx.node_link_graph(content)
     assert networkx.shortest_path_length(drawn, 0, 2, weight="length") == pytest.approx(0.623456)
 
 
