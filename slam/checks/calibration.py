@@ -18,9 +18,10 @@ from roomgraph.slam.checks.finding import Finding
 from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
 from roomgraph.slam.features.matching import match
 from roomgraph.slam.features.view import View
+from roomgraph.slam.geometry.chi_square import CHI2_95_3DOF
 from roomgraph.slam.geometry.motion import Correspondences, MotionSettings, estimate_motion
 from roomgraph.slam.geometry.noise import SensorNoise
-from roomgraph.slam.geometry.refinement import CHI2_95, refine_motion
+from roomgraph.slam.geometry.refinement import refine_motion
 
 FloatArray = NDArray[np.float64]
 
@@ -251,7 +252,7 @@ def _linearise(
     W[:, :2] = noise.pixel**-2
     W[:, 2] = np.where(known, sigma**-2, 0.0)
     error = (W * r**2).sum(axis=1)
-    return r, J_motion, J_theta, W / (1.0 + error / CHI2_95)[:, None]
+    return r, J_motion, J_theta, W / (1.0 + error / CHI2_95_3DOF)[:, None]
 
 
 def _residuals(pair: Pair, T: FloatArray, theta: FloatArray, given: Intrinsics) -> FloatArray:
