@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -122,9 +121,3 @@ def select(
         sequence, indices, sequence.name, sequence.root, sequence.camera,
         sequence.ground_truth, sequence.places, sequence.notes,
     )  # fmt: skip
-
-
-def frames_of(sequence: Sequence) -> Iterator[Frame]:
-    """Yield all frames in order."""
-    for index in range(len(sequence)):
-        yield sequence[index]
