@@ -5,7 +5,6 @@ from .errors import RoomgraphError as RoomgraphError
 from .frame import Frame as Frame
 from .readers.registry import open_sequence as open_sequence
 from .sequence import Sequence as Sequence
-from .sequence import frames_of as frames_of
 from .sequence import select as select
 from .trajectory import Trajectory as Trajectory
 from .trajectory import read_tum as read_tum

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -130,9 +129,3 @@ def select(
         sequence, indices, name=sequence.name, root=sequence.root, camera=sequence.camera,
         ground_truth=sequence.ground_truth, places=sequence.places, notes=sequence.notes,
     )  # fmt: skip
-
-
-def frames_of(sequence: Sequence) -> Iterator[Frame]:
-    """Yield all frames in order."""
-    for index in range(len(sequence)):
-        yield sequence[index]

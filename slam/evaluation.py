@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,39 +80,3 @@ def compare(
 
 def _rms(values: FloatArray) -> float:
     return float(np.sqrt(np.mean(values**2)))
-
-
-@dataclass(frozen=True, slots=True)
-class SurfaceError:
-    """How far points lie from the surfaces that they were seen on.
-
-    Attributes
-    ----------
-    median_m, p95_m : float
-        Of the distances; infinite if there is no point.
-    distances_m : (N,) float32
-        Of each point, to the nearest place on any triangle.
-    """
-
-    median_m: float
-    p95_m: float
-    distances_m: NDArray[np.float32]
-
-
-def surface_distance(
-    points: NDArray[np.floating], vertices: NDArray[np.floating], triangles: NDArray[np.integer]
-) -> SurfaceError:
-    """Compare points (N, 3) with the true triangles (M, 3) over vertices (V, 3), metres.
-
-    Both are in the same frame: move a map by ``T_truth_estimate`` of `compare` beforehand.
-    """
-    import open3d as o3d
-
-    def tensor(values: NDArray[Any], kind: type) -> Any:
-        return o3d.core.Tensor(np.ascontiguousarray(values, dtype=kind))
-
-    scene = o3d.t.geometry.RaycastingScene()
-    scene.add_triangles(tensor(vertices, np.float32), tensor(triangles, np.uint32))
-    distances = scene.compute_distance(tensor(points, np.float32)).numpy()
-    median, p95 = np.quantile(distances, (0.5, 0.95)) if len(distances) else (np.inf, np.inf)
-    return SurfaceError(float(median), float(p95), distances)

@@ -62,7 +62,7 @@ def map_sequence(
         for note in sequence.notes:
             logger.info("%s", note)
             terminal.say(note, dim=True)
-        viewer = _viewer(folder, settings, outputs)  # is made while the data is looked at
+        viewer = _viewer(folder, settings, outputs)  # is made while the sequence is checked
         found = _examine(sequence, settings, terminal)
         if found.sequence is not sequence:
             sequence = found.sequence
@@ -93,17 +93,17 @@ def map_sequence(
 
 
 def examined(sequence: Sequence, settings: AppSettings) -> Examination:
-    """Look at the data before a run, and mend what can be mended."""
+    """Check the sequence before it is mapped, and correct its camera where that is possible."""
     if not settings.checks.enabled:
         return Examination(sequence, ())
     # The matrices are small: BLAS threads would only get in the way of the checks' own.
     with threadpool_limits(1, user_api="blas"):
-        return examine(sequence, settings.checks)
+        return examine(sequence, settings.checks, settings.slam.noise)
 
 
 def _examine(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> Examination:
-    """Look at the data and say what cannot be right."""
-    with terminal.working("Looking at the data (a first run also compiles: some seconds)"):
+    """Check the sequence and warn of what cannot be right."""
+    with terminal.working("Checking the sequence (a first run also compiles: some seconds)"):
         found = examined(sequence, settings)
     for finding in found.findings:
         logger.warning("%s: %s", finding.kind, finding)
@@ -114,11 +114,11 @@ def _examine(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> E
 def _keep_camera(
     camera: Camera, folder: RunFolder, options: InputOptions, terminal: Terminal
 ) -> None:
-    """Write the camera that was mended, so that all who open the run's sequence again use it."""
+    """Write the corrected camera, so that all who open the run's sequence again use it."""
     write_camera(folder.camera, camera.intrinsics, camera.depth_scale, camera.depth)
-    mended = {"camera": folder.camera, "depth_scale": None}
-    write_input(folder.input, options.model_copy(update=mended))
-    say = f"the camera as mended is kept: --camera {folder.camera} takes it for other sequences"
+    corrected = {"camera": folder.camera, "depth_scale": None}
+    write_input(folder.input, options.model_copy(update=corrected))
+    say = f"the corrected camera is kept: --camera {folder.camera} uses it for other sequences"
     logger.info("%s", say)
     terminal.say(say, dim=True)
 

@@ -116,7 +116,7 @@ class RunFolder:
 
     @property
     def camera(self) -> Path:
-        """The camera as the data mended it; only where that was needed."""
+        """The corrected camera; only where a correction was needed."""
         return self.root / "camera.json"
 
     @property

@@ -14,8 +14,8 @@ from roomgraph.slam.features.matching import match
 from roomgraph.slam.features.view import View
 from roomgraph.slam.frontend.local_map import local_map
 from roomgraph.slam.frontend.tracker import Located, Tracker, correspondences, one_a_position
+from roomgraph.slam.geometry.chi_square import CHI2_984_6DOF
 from roomgraph.slam.geometry.depth_alignment import (
-    STEP_BOUND,
     Surface,
     align_surface,
     surface_of_image,
@@ -159,7 +159,7 @@ class KeyframeAligner:
             )
         step = se3.logarithm(T @ se3.inverse(T_keyframe_other))
         # The features must still agree, and depth must know something.
-        if step @ information @ step >= STEP_BOUND or not H.any():
+        if step @ information @ step >= CHI2_984_6DOF or not H.any():
             return None
         by: Literal["planes", "surface"] = "planes" if self.icp.on == "planes" else "surface"
         return Constraint(other.id, keyframe.id, se3.inverse(T), H, is_loop=False, by=by)

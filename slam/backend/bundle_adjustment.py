@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.camera import Intrinsics
+from roomgraph.slam.geometry.chi_square import CHI2_95_3DOF
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.normal_equations import (
     HOLD,
@@ -16,7 +17,7 @@ from roomgraph.slam.geometry.normal_equations import (
     bundle_errors,
     landmark_steps,
 )
-from roomgraph.slam.geometry.refinement import CHI2_95, inverse_variances
+from roomgraph.slam.geometry.refinement import inverse_variances
 
 FloatArray = NDArray[np.float64]
 
@@ -102,7 +103,7 @@ def adjust(
         points += moves
         if not len(step) or np.abs(step).max() < 1e-4:
             break
-    return Adjusted(T, points, system.errors(T, points) < CHI2_95)
+    return Adjusted(T, points, system.errors(T, points) < CHI2_95_3DOF)
 
 
 class _System:
@@ -134,7 +135,7 @@ class _System:
     def solve(self, T: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the steps of the free cameras (K', 6) and of all landmarks (L, 3)."""
         H, g, *of_landmarks = bundle_equations(
-            T, self._slots, self._free, points, *self._measured, CHI2_95
+            T, self._slots, self._free, points, *self._measured, CHI2_95_3DOF
         )
         step = -np.asarray(np.linalg.solve(H + HOLD * np.eye(len(g)), g), np.float64)
         steps = step.reshape(-1, 6)

@@ -1,4 +1,4 @@
-"""Checks of a sequence against itself: unit of depth, camera, registration, time."""
+"""Checks of a sequence: unit of depth, camera, registration, time."""
 
 from roomgraph.slam.checks.correction import Examination, examine
 from roomgraph.slam.checks.finding import Finding

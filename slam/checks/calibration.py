@@ -1,4 +1,4 @@
-"""Whether the focal lengths fit the motion that the frames show."""
+"""Whether the focal lengths fit the motion between the frames."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ from roomgraph.slam.checks.finding import Finding
 from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
 from roomgraph.slam.features.matching import match
 from roomgraph.slam.features.view import View
+from roomgraph.slam.geometry.chi_square import CHI2_95_3DOF
 from roomgraph.slam.geometry.motion import Correspondences, MotionSettings, estimate_motion
 from roomgraph.slam.geometry.noise import SensorNoise
-from roomgraph.slam.geometry.refinement import CHI2_95, refine_motion
+from roomgraph.slam.geometry.refinement import refine_motion
 
 FloatArray = NDArray[np.float64]
 
@@ -28,22 +29,24 @@ FloatArray = NDArray[np.float64]
 STARTS = (1.0, 0.8, 1.25)
 # Focal lengths further off than this, as a logarithm, are not to be believed.
 FARTHEST = np.log(4.0)
+# Focal lengths across and down that differ by less, as a logarithm, are told as one.
+ALIKE = 0.02
 # Steps of the adjustment; it ends when focal lengths move less than the last.
 ITERATIONS, CONVERGED = 15, 1e-4
 
 
 class CalibrationSettings(Settings):
-    """When the frames' own motion contradicts the camera's focal lengths."""
+    """How focal lengths are measured from the images, and when wrong ones are reported."""
 
     tolerance: float = Field(
-        0.07, gt=0, lt=1, description="focal lengths off by less, as a share, are let pass"
+        0.07, gt=0, lt=1, description="error of a focal length that is not reported, as a share"
     )
     min_sigmas: float = Field(
-        5.0, ge=1, description="and those off by fewer standard errors than this"
+        5.0, ge=1, description="error of a focal length needed to report it, standard errors"
     )
-    min_pairs: int = Field(4, ge=2, description="fewer pairs of frames decide nothing")
-    min_matches: int = Field(60, ge=20, description="matches that a pair needs")
-    features: int = Field(600, ge=50, description="features of each frame that are matched")
+    min_pairs: int = Field(4, ge=2, description="pairs of frames needed to measure focal lengths")
+    min_matches: int = Field(60, ge=20, description="matches needed in a pair of frames")
+    features: int = Field(600, ge=50, description="features matched per frame")
     ratio: float = Field(0.75, gt=0, lt=1, description="ratio test between nearest descriptors")
     principal_share: float = Field(
         0.02, gt=0, lt=0.5,
@@ -130,20 +133,31 @@ def find_wrong_focal(
     # A camera that turns about one axis tells one of the two: pixels keep their given shape.
     off = np.where(known, off, off[np.argmin(found.sigma)])
     fx, fy = np.array([camera.fx, camera.fy]) * np.exp(off)
-    observed = (
-        f"points move rigidly under fx {fx:.0f}, fy {fy:.0f} "
-        f"rather than under the given fx {camera.fx:g}, fy {camera.fy:g}"
-    )
+    observed = _described(camera, fx, fy)
     swapped = np.abs(np.log([fx / camera.fy, fy / camera.fx])).max()
     if known.all() and swapped < min(settings.tolerance, 0.5 * np.abs(off).max()):
         return Finding(
-            "intrinsics", observed, "fx and fy look swapped: check the camera file",
+            "intrinsics", observed, "fx and fy look swapped: check the camera file (--camera)",
             refocused(given, camera.fy, camera.fx),
         )  # fmt: skip
     return Finding(
         "intrinsics", observed, "check fx and fy in the camera file (--camera)",
         refocused(given, fx, fy),
     )  # fmt: skip
+
+
+def _described(camera: Intrinsics, fx: float, fy: float) -> str:
+    """Return words for focal lengths that do not fit, with one figure where fx and fy are alike."""
+    given, found = (camera.fx, camera.fy), (fx, fy)
+    if all(abs(np.log(x / y)) < ALIKE for x, y in (given, found)):
+        return (
+            f"the focal length of the camera ({np.mean(given):.0f} pixels) does not fit the "
+            f"images: about {np.mean(found):.0f} does"
+        )
+    return (
+        f"the focal lengths of the camera (fx {camera.fx:.0f}, fy {camera.fy:.0f} pixels) do not "
+        f"fit the images: about fx {fx:.0f}, fy {fy:.0f} do"
+    )
 
 
 def measure_focal(
@@ -251,7 +265,7 @@ def _linearise(
     W[:, :2] = noise.pixel**-2
     W[:, 2] = np.where(known, sigma**-2, 0.0)
     error = (W * r**2).sum(axis=1)
-    return r, J_motion, J_theta, W / (1.0 + error / CHI2_95)[:, None]
+    return r, J_motion, J_theta, W / (1.0 + error / CHI2_95_3DOF)[:, None]
 
 
 def _residuals(pair: Pair, T: FloatArray, theta: FloatArray, given: Intrinsics) -> FloatArray:

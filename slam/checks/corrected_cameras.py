@@ -1,4 +1,4 @@
-"""Cameras under which the data does not contradict itself."""
+"""Calibration corrections: cameras with which depth, colour and motion agree."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def registered(camera: Camera, alignment: Alignment) -> CameraCorrection | None:
         cy=float(centre[1]), distortion=(),
     )  # fmt: skip
     return CameraCorrection(
-        replace(camera, depth=DepthCamera(own, np.eye(4)), origin=_mended(camera)),
-        "it is laid there; aligning depth to colour when recording would be better still",
+        replace(camera, depth=DepthCamera(own, np.eye(4)), origin=_corrected(camera)),
+        "the depth images are aligned by that; aligning them when recording would be more accurate",
     )
 
 
@@ -42,13 +42,13 @@ def refocused(camera: Camera, fx: float, fy: float) -> CameraCorrection:
         own = replace(own, fx=own.fx * fx / colour.fx, fy=own.fy * fy / colour.fy)
         depth = replace(depth, intrinsics=own)
     other = replace(
-        camera, intrinsics=replace(colour, fx=fx, fy=fy), depth=depth, origin=_mended(camera)
+        camera, intrinsics=replace(colour, fx=fx, fy=fy), depth=depth, origin=_corrected(camera)
     )
     return CameraCorrection(
-        other, f"fx {fx:.0f}, fy {fy:.0f} are taken; calibrate the camera to be sure"
+        other, f"fx {fx:.0f}, fy {fy:.0f} are used instead; calibrate the camera to be sure"
     )
 
 
-def _mended(camera: Camera) -> str:
-    suffix = ", mended by the data"
+def _corrected(camera: Camera) -> str:
+    suffix = ", corrected from the images"
     return camera.origin.removesuffix(suffix) + suffix

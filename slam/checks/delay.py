@@ -16,17 +16,17 @@ from roomgraph.slam.checks.statistics import gain_error
 
 
 class DelaySettings(Settings):
-    """How far apart in time the two images are looked for."""
+    """How a delay between depth and colour images is found."""
 
-    frames: int = Field(5, ge=1, le=30, description="delays searched, frames")
-    min_outline: int = Field(100, ge=10, description="smaller outlines, in pixels, don't count")
-    min_windows: int = Field(5, ge=3, description="fewer stretches of frames decide nothing")
-    min_pairs: int = Field(2, ge=1, description="image pairs that a window needs for each delay")
+    frames: int = Field(5, ge=1, le=30, description="longest delay searched, frames")
+    min_outline: int = Field(100, ge=10, description="outline pixels that an image needs to count")
+    min_windows: int = Field(5, ge=3, description="windows of frames needed for a report")
+    min_pairs: int = Field(2, ge=1, description="image pairs needed in a window for each delay")
     min_score: float = Field(
-        0.3, gt=0, description="strength of colour edges that outlines have to lie on"
+        0.3, gt=0, description="mean strength needed of the colour edges under depth outlines"
     )
     min_gain: float = Field(
-        4.0, ge=2, description="gain of the fit over that without delay, standard errors"
+        4.0, ge=2, description="gain in fit needed over no delay, standard errors"
     )
 
 

@@ -1,4 +1,4 @@
-"""What the data says against itself."""
+"""What the checks of a sequence find."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Kind = Literal["depth scale", "intrinsics", "registration", "time offset"]
 
 @dataclass(frozen=True, slots=True)
 class CameraCorrection:
-    """A camera under which a contradiction should be gone, and words for what it changes."""
+    """A camera with which a finding should be gone, and words for what it changes."""
 
     camera: Camera
     words: str
@@ -20,7 +20,7 @@ class CameraCorrection:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Something about a sequence that cannot be right.
+    """Something in a sequence that cannot be right.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Finding:
     suggestion : str
         What to do about it.
     correction : CameraCorrection or None
-        What would mend it, where the data says so.
+        What would correct it, where the images show that.
     """
 
     kind: Kind

@@ -12,17 +12,20 @@ from roomgraph.slam.checks.finding import Finding
 
 
 class IntrinsicsSettings(Settings):
-    """What a camera's numbers look like when they are those of its images."""
+    """When intrinsics are implausible for the size of the images."""
 
     near_middle: float = Field(
         0.05, gt=0, lt=0.5,
-        description="a principal point this near the middle, as a share of the size, is in it",
+        description="a principal point is central within this share of the image's size",
     )  # fmt: skip
     off_middle: float = Field(
-        0.15, gt=0, lt=0.5, description="one this far off is out of the way for an uncropped image"
+        0.15,
+        gt=0,
+        lt=0.5,
+        description="a principal point further off the centre is implausible",
     )
-    min_view_deg: float = Field(20, gt=0, lt=180, description="narrowest field of view across")
-    max_view_deg: float = Field(140, gt=0, lt=180, description="widest field of view across")
+    min_view_deg: float = Field(20, gt=0, lt=180, description="narrowest horizontal field of view")
+    max_view_deg: float = Field(140, gt=0, lt=180, description="widest horizontal field of view")
 
 
 def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) -> Finding | None:
@@ -33,7 +36,9 @@ def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) 
     turned = replace(intrinsics, cx=intrinsics.cy, cy=intrinsics.cx)
     suggestion = None
     if off > 2 * settings.near_middle and _off_middle(turned, width, height) < settings.near_middle:
-        suggestion = "cx and cy look swapped (fx and fy may be too): check the camera file"
+        suggestion = (
+            "cx and cy look swapped (and perhaps fx and fy): check the camera file (--camera)"
+        )
     elif off > settings.off_middle and (
         _off_middle(intrinsics, scale * width, scale * height) < settings.near_middle
     ):
@@ -42,15 +47,17 @@ def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) 
             f"divide fx, fy, cx and cy by {scale:g}"
         )
     elif off > settings.off_middle:
-        suggestion = "check the camera file (--camera), unless the images were cropped"
+        suggestion = "check cx and cy in the camera file (--camera), unless the images were cropped"
     if suggestion is not None:
         where = f"cx {intrinsics.cx:g}, cy {intrinsics.cy:g} in images of {width}x{height}"
-        return Finding("intrinsics", f"the principal point is off the middle: {where}", suggestion)
+        observed = f"the principal point is far from the centre of the images: {where}"
+        return Finding("intrinsics", observed, suggestion)
     view = intrinsics.view_deg
     if not settings.min_view_deg <= view <= settings.max_view_deg:
         return Finding(
-            "intrinsics", f"fx {intrinsics.fx:g} gives a field of view of {view:.0f} degrees",
-            "check that fx and fy are in pixels of these images (--camera)",
+            "intrinsics",
+            f"fx {intrinsics.fx:g} gives an implausible field of view of {view:.0f} degrees",
+            "check that fx and fy in the camera file (--camera) are in pixels of these images",
         )  # fmt: skip
     return None
 

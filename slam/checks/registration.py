@@ -19,25 +19,25 @@ FloatArray = NDArray[np.float64]
 
 
 class RegistrationSettings(Settings):
-    """How far off the depth image is looked for, and when it counts as misplaced."""
+    """How a misalignment of depth and colour images is found, and when it is reported."""
 
     reach: float = Field(
-        0.1, gt=0, le=0.3, description="shifts searched, as a share of the image's width"
+        0.1, gt=0, le=0.3, description="largest shift searched, as a share of the image's width"
     )
     scale_range: float = Field(
-        0.16, ge=0, le=0.4, description="sizes searched: this share smaller to this share larger"
+        0.16, ge=0, le=0.4, description="largest change of size searched, as a share"
     )
     tolerance: float = Field(
         0.015, gt=0, le=0.2,
-        description="typical displacement that is let pass, as a share of the image's width",
+        description="displacement (rms) that is not reported, as a share of the image's width",
     )  # fmt: skip
-    min_outline: int = Field(100, ge=10, description="frames with fewer outline pixels don't vote")
-    min_windows: int = Field(5, ge=4, description="fewer stretches of frames decide nothing")
+    min_outline: int = Field(100, ge=10, description="outline pixels that a frame needs to count")
+    min_windows: int = Field(5, ge=4, description="windows of frames needed for a report")
     min_score: float = Field(
-        0.3, gt=0, description="strength of colour edges that outlines have to lie on"
+        0.3, gt=0, description="mean strength needed of the colour edges under depth outlines"
     )
     min_gain: float = Field(
-        3.0, ge=2, description="gain of the fit over that of the depth as it is, standard errors"
+        3.0, ge=2, description="gain in fit needed over no alignment, standard errors"
     )
 
 

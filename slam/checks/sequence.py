@@ -37,16 +37,16 @@ THREADS = 4
 
 
 class CheckSettings(Settings):
-    """What is looked at before a run to see that the data can be right."""
+    """The checks of a sequence before it is mapped."""
 
-    enabled: bool = Field(True, description="look at the data before a run and warn")
+    enabled: bool = Field(True, description="check the sequence before it is mapped, and warn")
     correct_camera: bool = Field(
         True,
-        description="mend the camera where the data says how: lay depth on colour where it lies "
-        "beside it, take focal lengths that points move rigidly under",
+        description="correct the camera where the images show how: align the depth images to the "
+        "colour images, replace focal lengths that do not fit the images",
     )
-    windows: int = Field(10, ge=1, le=100, description="stretches of successive frames looked at")
-    window: int = Field(8, ge=1, le=100, description="frames in each")
+    windows: int = Field(10, ge=1, le=100, description="windows of successive frames checked")
+    window: int = Field(8, ge=1, le=100, description="frames in each window")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
     calibration: CalibrationSettings = CalibrationSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()
@@ -70,10 +70,13 @@ class Evidence:
     depths_m: NDArray[np.float32]
 
 
-def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding, ...]:
-    """Return what the data says against itself, the likeliest cause of each contradiction.
+def check_sequence(
+    sequence: Sequence, settings: CheckSettings, noise: SensorNoise
+) -> tuple[Finding, ...]:
+    """Return what does not agree in a sequence, with the likeliest cause of each.
 
-    Frames that cannot be read are left to those that need them.
+    `noise` is that of the sensor that took the sequence. Frames that cannot be read are left to
+    those that need them.
     """
     camera = sequence.camera
     wrong = find_wrong_intrinsics(camera.intrinsics, settings.intrinsics)
@@ -82,22 +85,23 @@ def check_sequence(sequence: Sequence, settings: CheckSettings) -> tuple[Finding
     scale = find_wrong_scale(evidence.depths_m, camera.depth_scale, settings.depth_scale)
     if scale is not None:
         hint = (
-            f"--depth-scale {scale.depth_scale:g} would be plausible"
+            f"--depth-scale {scale.depth_scale:g} gives usual indoor distances"
             if scale.depth_scale
-            else "check --depth-scale"
+            else "check the unit of the depth images (--depth-scale)"
         )
         found.append(Finding(
             "depth scale",
-            f"the typical depth is {scale.median_m:.3g} m at {camera.depth_scale:g} units a metre",
+            f"a depth scale of {camera.depth_scale:g} units per metre does not fit the images: "
+            f"the median depth is {scale.median_m:.3g} m",
             hint,
         ))  # fmt: skip
     found += _out_of_step(sequence, evidence, settings)
     # With anything else wrong, points do not move rigidly either.
-    return tuple(found or _calibration(sequence, settings))
+    return tuple(found or _calibration(sequence, settings, noise))
 
 
-def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
-    """Say where the focal lengths contradict the motion of the frames' points."""
+def _calibration(sequence: Sequence, settings: CheckSettings, noise: SensorNoise) -> list[Finding]:
+    """Report focal lengths that do not fit the motion between frames."""
 
     def look(window: range) -> Pair | None:
         later = (window[0] + step for step in MATCHED_AFTER if window[0] + step < len(sequence))
@@ -111,7 +115,7 @@ def _calibration(sequence: Sequence, settings: CheckSettings) -> list[Finding]:
         known = [pair for pair in pool.map(look, windows) if pair is not None]
     if not known:
         return []
-    finding = find_wrong_focal(known, sequence.camera, settings.calibration, SensorNoise())
+    finding = find_wrong_focal(known, sequence.camera, settings.calibration, noise)
     return [] if finding is None else [finding]
 
 
@@ -147,7 +151,7 @@ def _sampled(frame: Frame) -> NDArray[np.float32]:
 
 
 def _out_of_step(sequence: Sequence, evidence: Evidence, settings: CheckSettings) -> list[Finding]:
-    """Say where depth and colour do not belong together: in place, or in time.
+    """Report depth images that do not fit the colour images: in position, or in time.
 
     Each can look like the other while the camera moves evenly: the better fit is believed.
     """
@@ -170,9 +174,10 @@ def _late(delay: Delay, sequence: Sequence) -> Finding:
     seconds, sign = abs(delay.frames) * period, "-" if delay.frames > 0 else "+"
     return Finding(
         "time offset",
-        f"depth images are {frames} ({seconds:.3g} s) {'late' if delay.frames > 0 else 'early'}: "
-        "their outlines fit colour images of another time",
-        f"shift the depth's time stamps by {sign}{seconds:.3g} s, or pair the images anew",
+        f"the depth images are {frames} ({seconds:.3g} s) "
+        f"{'later' if delay.frames > 0 else 'earlier'} than the colour images they are paired with",
+        f"add {sign}{seconds:.3g} s to the time stamps of the depth images, "
+        "then pair the images again",
     )
 
 
@@ -181,9 +186,9 @@ def _unregistered(misplaced: Misplaced, camera: Camera) -> Finding:
     scaled = f"scaled by {alignment.scale:.2f} and " if abs(alignment.scale - 1) >= 0.01 else ""
     return Finding(
         "registration",
-        "depth does not lie on colour: its outlines fit when "
+        "the depth images are not aligned to the colour images: they fit when "
         f"{scaled}shifted by ({alignment.dx:+.0f}, {alignment.dy:+.0f}) pixels",
-        "register the depth to the colour camera when recording (align depth to colour), or "
-        'describe the camera that the depth comes from as "depth" in the camera file',
+        "switch on the alignment of depth to colour when recording, or "
+        'describe the depth camera as "depth" in the camera file',
         registered(camera, alignment),
     )

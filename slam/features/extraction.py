@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.settings import Settings
 from roomgraph.slam.errors import SlamError
 
@@ -82,10 +81,6 @@ class FeatureExtractor:
     def is_binary(self) -> bool:
         """Whether descriptors are compared by Hamming distance."""
         return self.settings.detector == "orb"
-
-    def extract(self, frame: Frame) -> Features:
-        """Return the features of a frame's colour image."""
-        return self.extract_image(frame.colour)
 
     def extract_image(self, colour: NDArray[np.uint8]) -> Features:
         """Return the features of a (H, W, 3) RGB or (H, W) grey image."""

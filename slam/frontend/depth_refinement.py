@@ -12,7 +12,8 @@ from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.settings import Settings
 from roomgraph.slam.frontend.estimate import Estimate
-from roomgraph.slam.geometry.depth_alignment import STEP_BOUND, Surface, align_surface, surface_of
+from roomgraph.slam.geometry.chi_square import CHI2_984_6DOF
+from roomgraph.slam.geometry.depth_alignment import Surface, align_surface, surface_of
 from roomgraph.slam.geometry.noise import SensorNoise
 
 FloatArray = NDArray[np.float64]
@@ -66,7 +67,8 @@ class DepthRefiner:
         )
         refined = se3.inverse(T_reference_camera)
         step = se3.logarithm(refined @ se3.inverse(T))
-        if not found.any() or step @ estimate.information @ step >= STEP_BOUND:
+        # A step this long contradicts the features.
+        if not found.any() or step @ estimate.information @ step >= CHI2_984_6DOF:
             return estimate
         back = se3.adjoint(T_reference_camera)
         return replace(

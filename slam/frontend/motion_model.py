@@ -9,11 +9,10 @@ from pydantic import Field
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.settings import Settings
+from roomgraph.slam.geometry.chi_square import CHI2_95_6DOF
 
 FloatArray = NDArray[np.float64]
 
-# 95 % of a chi-square with six degrees of freedom.
-CHI2_95 = 12.59
 # Steps in time that are alike: stamps jitter.
 ALIKE = 0.1
 
@@ -98,7 +97,7 @@ class MotionModel:
         both = information + prior
         # Mahalanobis, from the information of either: (P^-1 + H^-1)^-1 = P (P + H)^-1 H.
         error = float(off @ prior @ np.linalg.solve(both, information @ off))
-        prior = prior / (1.0 + error / CHI2_95)
+        prior = prior / (1.0 + error / CHI2_95_6DOF)
         pull: FloatArray = np.asarray(np.linalg.solve(information + prior, prior @ off))
         return se3.exponential(pull) @ T
 

@@ -18,9 +18,6 @@ FloatArray = NDArray[np.float64]
 
 # Metres and radians: a step as small as this, far below any camera's noise, is the last.
 CONVERGED = 1e-4
-# Squared length, in the features' standard deviations, beyond which a step contradicts them:
-# 98.4 % of a chi-square with six degrees of freedom.
-STEP_BOUND = 15.6
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,14 +9,13 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.camera import Intrinsics
+from roomgraph.slam.geometry.chi_square import CHI2_95_3DOF
 from roomgraph.slam.geometry.motion import Correspondences
 from roomgraph.slam.geometry.noise import SensorNoise
 from roomgraph.slam.geometry.normal_equations import HOLD, motion_equations
 
 FloatArray = NDArray[np.float64]
 
-# 95 % of a chi-square with three degrees of freedom: two pixels and an inverse depth.
-CHI2_95 = 7.81
 # Robust kernels, as the powers of (1 + e / c) that they divide by.
 CAUCHY, GEMAN_MCCLURE = 1, 2
 # Metres and radians: steps as small as this.
@@ -77,7 +76,7 @@ def refine_motion(
     system = _System(found, intrinsics, noise)
     T, power = T_camera_reference, CAUCHY
     for _ in range(iterations):
-        _, H, g = system.at(T, CHI2_95 * width**2, power)
+        _, H, g = system.at(T, CHI2_95_3DOF * width**2, power)
         step = -np.asarray(np.linalg.solve(H + HOLD * np.eye(6), g), np.float64)
         T = se3.exponential(step) @ T
         length = np.abs(step).max()
@@ -88,7 +87,7 @@ def refine_motion(
         elif length < AT_REST:
             break
     error, _, _ = system.at(T)
-    inliers = error < CHI2_95
+    inliers = error < CHI2_95_3DOF
     _, H, _ = _System(found.take(inliers), intrinsics, noise).at(T)
     return RefinedMotion(T, H, inliers)
 

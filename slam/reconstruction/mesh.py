@@ -1,8 +1,8 @@
-"""Triangles for the map: from keyframes' depth, or from points with normals."""
+"""Triangles for the map: from points with normals."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.datasets import se3
 from roomgraph.slam.errors import SlamError
-from roomgraph.slam.geometry.range_image import RangeImage
 
 FloatArray = NDArray[np.float64]
 # Blocks of 8 voxels a side hug surfaces closer than Open3D's usual 16: half the memory.
@@ -45,56 +43,6 @@ class Mesh:
     normals: NDArray[np.float32]
 
 
-def mesh_of(
-    images: Iterable[tuple[int, RangeImage]],
-    T_world_keyframe: Mapping[int, FloatArray],
-    voxel_m: float,
-    min_views: int = 1,
-) -> Mesh:
-    """Fuse keyframes' depth into signed distances and draw the surface where they are zero.
-
-    Truncated signed distances (Curless & Levoy, 1996; Newcombe et al., 2011) in Open3D's hashed
-    blocks; memory follows the surface, and the images are taken one by one. To leave out what has
-    moved, hand in `slam.map.without_moved`'s images.
-
-    Parameters
-    ----------
-    images : iterable of (int, RangeImage)
-        Keyframes' numbers and what they saw.
-    T_world_keyframe : mapping of int to (4, 4) float64
-        Their poses.
-    voxel_m : float
-        Side of a voxel, metres; triangles are about as large.
-    min_views : int
-        Surfaces seen by fewer keyframes are left out.
-
-    Raises
-    ------
-    SlamError
-        No surface is found.
-    """
-    import open3d as o3d
-
-    with _one_thread():
-        grid = _grid(voxel_m)
-        for keyframe, image in images:
-            if not image.depth_mm.any():
-                continue
-            # Open3D takes colours of this kind for 0 to 1.
-            colour = image.colour.astype(np.float32) / np.float32(255)
-            depth, colours = (
-                o3d.t.geometry.Image(o3d.core.Tensor(layer)) for layer in (image.depth, colour)
-            )
-            K = o3d.core.Tensor(image.intrinsics.K)
-            T_camera_world = o3d.core.Tensor(se3.inverse(T_world_keyframe[keyframe]))
-            farthest = float(image.depth.max()) + voxel_m
-            blocks = grid.compute_unique_block_coordinates(
-                depth, K, T_camera_world, 1.0, farthest, TRUNCATION
-            )
-            grid.integrate(blocks, depth, colours, K, K, T_camera_world, 1.0, farthest, TRUNCATION)
-        return _surface(grid, min_views)
-
-
 def mesh_from_points(
     points: NDArray[np.floating],
     normals: NDArray[np.floating],
@@ -122,7 +70,7 @@ def mesh_from_points(
             rows, _ = grid.hashmap().activate(o3d.core.Tensor(blocks))
             where, index = grid.voxel_coordinates_and_flattened_indices(rows)
             _fill(grid, where.numpy(), index.numpy(), (points, normals, colours), near)
-        return _surface(grid, min_views=1)
+        return _surface(grid)
 
 
 def _blocks_near(points: NDArray[np.floating], near: float, side_m: float) -> NDArray[np.int32]:
@@ -188,10 +136,10 @@ def _grid(voxel_m: float) -> Any:
     )
 
 
-def _surface(grid: Any, min_views: int) -> Mesh:
+def _surface(grid: Any) -> Mesh:
     if grid.hashmap().size():
-        # Open3D wants weights above the threshold, not at it.
-        mesh = grid.extract_triangle_mesh(weight_threshold=min_views - 0.5)
+        # Open3D wants weights above the threshold, not at it; known voxels have a weight of 1.
+        mesh = grid.extract_triangle_mesh(weight_threshold=0.5)
         if "indices" in mesh.triangle and len(mesh.triangle.indices):
             colours = np.rint(255 * mesh.vertex.colors.numpy())
             return Mesh(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -112,25 +112,6 @@ def build_map(
         seen = count_visibility(voxels, settings.voxel_m, images, T_world_keyframe, noise)
         points = points.chosen(~seen.is_empty)
     return points
-
-
-def without_moved(
-    images: Sequence[tuple[int, RangeImage]],
-    T_world_keyframe: Mapping[int, FloatArray],
-    voxel_m: float,
-    noise: SensorNoise,
-) -> list[tuple[int, RangeImage]]:
-    """Return keyframes' images without the readings that `build_map` would drop."""
-    voxels = _fused(images, T_world_keyframe, voxel_m, noise)
-    seen = count_visibility(voxels, voxel_m, images, T_world_keyframe, noise)
-    dropped = voxels.keys[seen.is_empty]
-    left = []
-    for keyframe, image in images:
-        points_world = se3.transform(T_world_keyframe[keyframe], image.points)
-        depth_mm = image.depth_mm.copy()
-        depth_mm[depth_mm > 0] *= ~np.isin(voxels_of(points_world, voxel_m), dropped)
-        left.append((keyframe, replace(image, depth_mm=depth_mm)))
-    return left
 
 
 def _fused(

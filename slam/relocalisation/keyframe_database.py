@@ -17,10 +17,13 @@ from roomgraph.slam.errors import SlamError
 from roomgraph.slam.features.extraction import Features
 from roomgraph.slam.frontend.local_map import LocalMap, local_map
 from roomgraph.slam.keyframe import Keyframe
+from roomgraph.slam.relocalisation.descriptor_storage import restored, stored
 
 FloatArray = NDArray[np.float64]
 
-SCHEMA = "roomgraph/keyframes/1"
+SCHEMA = "roomgraph/keyframes/2"
+# The first form had `is_binary` in place of `descriptor_storage`, and bytes for all descriptors.
+FIRST_SCHEMA = "roomgraph/keyframes/1"
 # Of a keyframe's features with depth, the strongest so many are kept: about 75 kB.
 MAX_FEATURES = 500
 
@@ -86,12 +89,9 @@ def joined(keyframes: Iterable[StoredKeyframe]) -> LocalMap:
 
 
 def write_keyframe_database(path: Path, database: KeyframeDatabase) -> None:
-    """Write ``keyframes.npz``: descriptors as bytes, positions as float32, all without pickle.
-
-    SIFT's descriptors are whole numbers up to 255 by construction, RootSIFT's are rounded to
-    them: at a norm of 512, by less than a thousandth of it.
-    """
+    """Write ``keyframes.npz``: positions as float32, descriptors as `stored` says, no pickle."""
     camera, found = database.intrinsics, [k.features for k in database.keyframes]
+    storage, descriptors = stored(np.concatenate([f.descriptors for f in found]))
     values: dict[str, NDArray[Any]] = {
         "schema": np.array(SCHEMA),
         "size": np.array([camera.width, camera.height]),
@@ -100,11 +100,11 @@ def write_keyframe_database(path: Path, database: KeyframeDatabase) -> None:
         "stamps_s": np.array([k.stamp_s for k in database.keyframes]),
         "T_world_keyframe": np.array([k.T_world_keyframe for k in database.keyframes]),
         "counts": np.array([len(features) for features in found]),
-        "is_binary": np.array(found[0].descriptors.dtype == np.uint8),
+        "descriptor_storage": np.array(storage),
         "pixels": np.concatenate([f.pixels for f in found]).astype(np.float32),
         "sizes": np.concatenate([f.sizes for f in found]).astype(np.float16),
         "points": np.concatenate([k.points for k in database.keyframes]).astype(np.float32),
-        "descriptors": np.concatenate([_as_bytes(f.descriptors) for f in found]),
+        "descriptors": descriptors,
     }
     # Compressed it would take a quarter less room, and thirty times as long.
     with replacing(path) as temporary, temporary.open("wb") as file:
@@ -122,7 +122,7 @@ def read_keyframe_database(path: Path) -> KeyframeDatabase:
     try:
         with np.load(path, allow_pickle=False) as file:
             values = {name: file[name] for name in file.files}
-        if str(values["schema"]) != SCHEMA:
+        if str(values["schema"]) not in (SCHEMA, FIRST_SCHEMA):
             raise ValueError(f"schema {values['schema']}")
         width, height = (int(v) for v in values["size"])
         fx, fy, cx, cy = (float(v) for v in values["camera"])
@@ -142,9 +142,7 @@ def read_keyframe_database(path: Path) -> KeyframeDatabase:
 
 
 def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[StoredKeyframe]:
-    descriptors = values["descriptors"]
-    if not values["is_binary"]:
-        descriptors = descriptors.astype(np.float32)
+    descriptors = restored(_storage(values), values["descriptors"])
     pixels, points = values["pixels"].astype(np.float64), values["points"].astype(np.float64)
     sizes = values["sizes"].astype(np.float32)
     ends = np.cumsum(values["counts"])
@@ -163,7 +161,7 @@ def _keyframes(values: Mapping[str, NDArray[Any]]) -> list[StoredKeyframe]:
     return kept
 
 
-def _as_bytes(descriptors: NDArray[Any]) -> NDArray[np.uint8]:
-    if descriptors.dtype != np.uint8:
-        descriptors = np.clip(np.rint(descriptors), 0, 255)
-    return np.asarray(descriptors, dtype=np.uint8)
+def _storage(values: Mapping[str, NDArray[Any]]) -> str:
+    if str(values["schema"]) == FIRST_SCHEMA:
+        return "binary" if values["is_binary"] else "bytes"
+    return str(values["descriptor_storage"])

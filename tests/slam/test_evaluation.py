@@ -4,7 +4,7 @@ import pytest
 from roomgraph.datasets import se3
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.errors import SlamError
-from roomgraph.slam.evaluation import compare, surface_distance
+from roomgraph.slam.evaluation import compare
 
 
 @pytest.fixture
@@ -58,21 +58,3 @@ def test_no_common_time_is_said(random_poses):
     truth = Trajectory(np.arange(20.0), random_poses)
     with pytest.raises(SlamError, match="0 of 20"):
         compare(Trajectory(np.arange(20.0) + 0.5, random_poses), truth)
-
-
-def test_surface_distance_is_that_to_the_nearest_triangle(rng):
-    vertices = np.array([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0.0)])
-    triangles = np.array([(0, 1, 2), (0, 2, 3)])
-    heights = np.linspace(-0.1, 0.1, 201)
-    points = np.column_stack([rng.uniform(0, 4, (201, 2)), heights])
-    found = surface_distance(points, vertices, triangles)
-    assert np.allclose(found.distances_m, np.abs(heights), atol=1e-6)
-    assert found.median_m == pytest.approx(0.05, abs=1e-3)
-    assert found.p95_m == pytest.approx(0.095, abs=1e-3)
-    beside = surface_distance(np.array([(7.0, 8.0, 0.0)]), vertices, triangles)
-    assert beside.median_m == pytest.approx(5.0)
-
-
-def test_no_points_are_infinitely_far():
-    none = surface_distance(np.empty((0, 3)), np.eye(3), np.array([(0, 1, 2)]))
-    assert none.median_m == none.p95_m == np.inf and len(none.distances_m) == 0

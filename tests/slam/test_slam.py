@@ -7,12 +7,13 @@ import pytest
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
-from roomgraph.datasets.sequence import frames_of, select
+from roomgraph.datasets.sequence import select
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.reconstruction.point_map import LiveMap
 from roomgraph.slam.slam import Slam, SlamSettings
 from roomgraph.slam.tracking import TrackingState
+from tests.helpers import frames_of
 
 
 def _track(sequence, settings=None, change=lambda frame: frame):

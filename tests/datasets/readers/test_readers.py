@@ -15,7 +15,8 @@ from roomgraph.datasets.readers.images import (
     undistort_depth,
 )
 from roomgraph.datasets.readers.registry import READERS, guess_layout, open_sequence
-from roomgraph.datasets.sequence import Sequence, frames_of, select
+from roomgraph.datasets.sequence import Sequence, select
+from tests.helpers import frames_of
 
 WIDTH, HEIGHT = 32, 24
 CAMERA = Intrinsics(WIDTH, HEIGHT, 30.0, 30.0, 15.5, 11.5)

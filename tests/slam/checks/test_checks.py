@@ -1,4 +1,4 @@
-"""What the data says against itself, on a walk through the rendered building made wrong."""
+"""What the checks find, on a walk through the rendered building made wrong."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -23,8 +23,9 @@ from roomgraph.slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intr
 from roomgraph.slam.checks.registration import Alignment
 from roomgraph.slam.checks.statistics import gain_error
 from roomgraph.slam.geometry.noise import SensorNoise
-from tests.slam.helpers import correspondences
+from tests.slam.helpers import NOISE, correspondences
 
+UNCERTAIN = SensorNoise(pixel=10, depth_floor_m=0.1, depth_quadratic=0.1)
 KINECT = Intrinsics(640, 480, 525.0, 525.0, 319.5, 239.5)
 MIDDLE, STRETCH = np.array([319.5, 239.5]), np.array([4 / 3, 1.0])
 
@@ -62,8 +63,8 @@ class Bent:
         return replace(self, new_camera=camera)
 
 
-def check(sequence, change=None, camera=None):
-    return check_sequence(Bent(sequence, change, camera), CheckSettings())
+def check(sequence, change=None, camera=None, noise=NOISE):
+    return check_sequence(Bent(sequence, change, camera), CheckSettings(), noise)
 
 
 def moved(dx, dy, scale=1.0):
@@ -121,10 +122,10 @@ def agreement(sequence, truth):
 @pytest.mark.parametrize(("dx", "dy", "scale"), [(10, 0, 1), (-15, 6, 1), (6, 2, 1.1)])
 def test_unregistered_depth_is_laid_on_colour(rendered_sequence, dx, dy, scale):
     wrong = Bent(rendered_sequence, moved(dx, dy, scale))
-    found = examine(wrong, CheckSettings())
+    found = examine(wrong, CheckSettings(), NOISE)
     (finding,) = found.findings
     assert finding.kind == "registration"
-    assert "it is laid there" in finding.suggestion
+    assert "are aligned by that" in finding.suggestion
     before, after = (agreement(sequence, rendered_sequence) for sequence in (wrong, found.sequence))
     assert 1 - after < 0.25 * (1 - before)
 
@@ -134,28 +135,30 @@ def test_wrong_focal_lengths_are_replaced(rendered_sequence, factor):
     true = rendered_sequence.camera
     given = replace(true.intrinsics, fx=factor * true.intrinsics.fx, fy=factor * true.intrinsics.fy)
     wrong = Bent(rendered_sequence, None, replace(true, intrinsics=given))
-    found = examine(wrong, CheckSettings())
+    found = examine(wrong, CheckSettings(), NOISE)
     (finding,) = found.findings
-    assert "are taken" in finding.suggestion
+    assert "are used instead" in finding.suggestion
     taken = found.sequence.camera.intrinsics
     assert np.allclose([taken.fx, taken.fy], [true.intrinsics.fx, true.intrinsics.fy], rtol=0.04)
 
 
-def test_what_a_remedy_does_not_cure_stays_as_it_was(rendered_sequence):
+def test_what_a_correction_does_not_solve_stays_as_it_was(rendered_sequence):
     class Stubborn(Bent):
         def with_camera(self, camera):
             return self
 
     wrong = Stubborn(rendered_sequence, moved(10, 0))
-    found = examine(wrong, CheckSettings())
+    found = examine(wrong, CheckSettings(), NOISE)
     assert found.sequence is wrong
-    assert list(map(str, found.findings)) == list(map(str, check_sequence(wrong, CheckSettings())))
+    assert list(map(str, found.findings)) == list(
+        map(str, check_sequence(wrong, CheckSettings(), NOISE))
+    )
     assert "when recording" in found.findings[0].suggestion
 
 
-def test_mending_can_be_left_out(rendered_sequence):
+def test_the_correction_can_be_left_out(rendered_sequence):
     wrong = Bent(rendered_sequence, moved(10, 0))
-    found = examine(wrong, CheckSettings(correct_camera=False))
+    found = examine(wrong, CheckSettings(correct_camera=False), NOISE)
     assert found.sequence is wrong
     assert [finding.kind for finding in found.findings] == ["registration"]
 
@@ -170,8 +173,8 @@ def test_a_time_offset_is_counted_in_frames(rendered_sequence, late):
     assert finding.kind == "time offset"
     plural = "s" if abs(late) > 1 else ""
     assert f"{abs(late)} frame{plural} " in finding.observed
-    assert ("late" if late > 0 else "early") in finding.observed
-    assert f"by {'-' if late > 0 else '+'}{abs(late) / 30:.3g} s" in finding.suggestion
+    assert ("later" if late > 0 else "earlier") in finding.observed
+    assert f"add {'-' if late > 0 else '+'}{abs(late) / 30:.3g} s" in finding.suggestion
 
 
 def seen_by(fx=1.0, fy=1.0):
@@ -189,8 +192,24 @@ def test_a_wrong_focal_length_is_measured(rendered_sequence, factor):
     (finding,) = check(rendered_sequence, seen_by(factor, factor))
     assert finding.kind == "intrinsics"
     given = rendered_sequence.camera.intrinsics.fx
-    measured = float(finding.observed.split("under fx ")[1].split(",")[0])
+    measured = float(finding.observed.split("about ")[1].split()[0])
     assert abs(measured - given) < 0.04 * given
+
+
+def test_the_noise_of_the_sensor_decides_how_sure_a_focal_length_is(rendered_sequence):
+    """With a sensor this uncertain, an error of 10 % is within a few standard errors."""
+    assert check(rendered_sequence, seen_by(0.9, 0.9), noise=NOISE)
+    assert check(rendered_sequence, seen_by(0.9, 0.9), noise=UNCERTAIN) == ()
+
+
+def test_a_correction_is_made_with_the_noise_of_the_sensor(rendered_sequence):
+    true = rendered_sequence.camera
+    given = replace(true.intrinsics, fx=0.9 * true.intrinsics.fx, fy=0.9 * true.intrinsics.fy)
+    wrong = Bent(rendered_sequence, None, replace(true, intrinsics=given))
+    assert examine(wrong, CheckSettings(), NOISE).sequence is not wrong
+    found = examine(wrong, CheckSettings(), UNCERTAIN)
+    assert found.sequence is wrong
+    assert found.findings == ()
 
 
 def made_pairs(rng, motions, count=150):
@@ -221,7 +240,7 @@ def test_focal_lengths_are_measured_with_the_error_said(rng):
     estimates = []
     for _ in range(12):
         pairs = made_pairs(rng, turned(rng))
-        found = measure_focal(pairs, CalibrationSettings(), SensorNoise())
+        found = measure_focal(pairs, CalibrationSettings(), NOISE)
         estimates.append(np.log([found.fx / 525, found.fy / 525]) / found.sigma)
     assert np.abs(np.mean(estimates)) < 1
     assert 0.5 < np.std(estimates) < 2
@@ -236,13 +255,14 @@ def test_swapped_focal_lengths_are_named(rng):
                 seen=(p.seen - MIDDLE) * STRETCH + MIDDLE)
         for p in pairs
     ]  # fmt: skip
-    settings, noise = CalibrationSettings(), SensorNoise()
+    settings, noise = CalibrationSettings(), NOISE
     given = taken_by(wide)
     assert find_wrong_focal(stretched, given, settings, noise) is None
     swapped = given_as(stretched, replace(wide, fx=wide.fy, fy=wide.fx))
     finding = find_wrong_focal(swapped, taken_by(swapped[0].camera), settings, noise)
     assert "swapped" in finding.suggestion
     assert finding.correction.camera.intrinsics == wide
+    assert "(fx 525, fy 700 pixels) do not fit the images: about fx" in finding.observed
 
 
 def test_where_one_focal_length_is_told_pixels_keep_their_shape(rng):
@@ -258,12 +278,12 @@ def test_where_one_focal_length_is_told_pixels_keep_their_shape(rng):
         )))
         for pair in made_pairs(rng, motions, 2500)
     ]  # fmt: skip
-    settings, noise = CalibrationSettings(tolerance=0.03), SensorNoise()
+    settings, noise = CalibrationSettings(tolerance=0.03), NOISE
     assert measure_focal(pairs, settings, noise).sigma[1] > settings.tolerance / 2
     finding = find_wrong_focal(pairs, taken_by(given), settings, noise)
-    mended = finding.correction.camera.intrinsics
-    assert np.isclose(mended.fx, 525, rtol=0.03)
-    assert np.isclose(mended.fx, mended.fy)
+    corrected = finding.correction.camera.intrinsics
+    assert np.isclose(corrected.fx, 525, rtol=0.03)
+    assert np.isclose(corrected.fx, corrected.fy)
 
 
 def test_a_camera_that_does_not_turn_says_nothing_of_its_focal_length(rng):
@@ -271,9 +291,9 @@ def test_a_camera_that_does_not_turn_says_nothing_of_its_focal_length(rng):
     slides = [se3.pose(t=(x, 0.5 * x, 0)) for x in (-0.3, -0.2, -0.1, 0.1, 0.2, 0.3)]
     wrong = replace(KINECT, fx=1.2 * 525, fy=1.2 * 525)
     pairs = given_as(made_pairs(rng, slides), wrong)
-    found = measure_focal(pairs, CalibrationSettings(), SensorNoise())
+    found = measure_focal(pairs, CalibrationSettings(), NOISE)
     assert found.sigma.min() > 0.05
-    assert find_wrong_focal(pairs, taken_by(wrong), CalibrationSettings(), SensorNoise()) is None
+    assert find_wrong_focal(pairs, taken_by(wrong), CalibrationSettings(), NOISE) is None
 
 
 def test_nothing_is_said_of_images_without_outlines(rendered_sequence):

@@ -7,8 +7,9 @@ from roomgraph.datasets import se3
 from roomgraph.datasets.camera import Intrinsics
 from roomgraph.datasets.frame import Frame
 from roomgraph.slam.errors import SlamError
-from roomgraph.slam.features.extraction import Features
+from roomgraph.slam.features.extraction import Features, root
 from roomgraph.slam.frontend.tracker import Tracker
+from roomgraph.slam.relocalisation.descriptor_storage import stored
 from roomgraph.slam.relocalisation.keyframe_database import (
     MAX_FEATURES,
     KeyframeDatabase,
@@ -25,12 +26,33 @@ from roomgraph.slam.slam import Slam, SlamSettings
 CAMERA = Intrinsics(640, 480, 525.0, 526.0, 319.5, 239.5)
 
 
-def _database(rng, random_poses, is_binary):
+def _binary(rng, count):
+    return rng.integers(0, 256, (count, 32)).astype(np.uint8)
+
+
+def _unit(rng, count):
+    """As SURF and learned features are: of norm 1, with negative values."""
+    values = rng.normal(size=(count, 64))
+    return (values / np.linalg.norm(values, axis=1, keepdims=True)).astype(np.float32)
+
+
+def _root_sift(rng, count):
+    return root(rng.exponential(40, (count, 128)).astype(np.float32))
+
+
+def _sift(rng, count):
+    return np.rint(_root_sift(rng, count))
+
+
+def _large(rng, count):
+    """Beyond what float16 can hold."""
+    return 1e6 * _unit(rng, count)
+
+
+def _database(rng, random_poses, make):
     keyframes = []
     for i, count in enumerate((7, 0, 3)):
-        descriptors = rng.integers(0, 256, (count, 32 if is_binary else 128)).astype(
-            np.uint8 if is_binary else np.float32
-        )
+        descriptors = make(rng, count)
         features = Features(
             rng.uniform(0, 480, (count, 2)), descriptors, rng.uniform(2, 60, count).astype("f4")
         )
@@ -39,11 +61,65 @@ def _database(rng, random_poses, is_binary):
     return KeyframeDatabase(tuple(keyframes), CAMERA)
 
 
-@pytest.mark.parametrize("is_binary", [False, True])
-def test_a_memory_survives_the_disk(rng, random_poses, tmp_path, is_binary):
-    database = _database(rng, random_poses, is_binary)
-    write_keyframe_database(tmp_path / "keyframes.npz", database)
-    read = read_keyframe_database(tmp_path / "keyframes.npz")
+def _make_first_form(path):
+    """Turn a file into one of the first form."""
+    with np.load(path) as file:
+        values = dict(file)
+    is_binary = str(values.pop("descriptor_storage")) == "binary"
+    values |= {"schema": np.array("roomgraph/keyframes/1"), "is_binary": np.array(is_binary)}
+    assert values["descriptors"].dtype == np.uint8
+    np.savez(path, **values)
+
+
+@pytest.mark.parametrize(
+    ("make", "storage", "error"),
+    [
+        (_binary, "binary", 0),
+        (_sift, "bytes", 0),
+        (_root_sift, "bytes", 0.5),
+        (_unit, "float16", 5e-4),
+        (_large, "float32", 0),
+    ],
+)
+def test_a_database_survives_the_disk(rng, random_poses, tmp_path, make, storage, error):
+    database, path = _database(rng, random_poses, make), tmp_path / "keyframes.npz"
+    write_keyframe_database(path, database)
+    with np.load(path) as file:
+        assert str(file["schema"]) == "roomgraph/keyframes/2"
+        assert str(file["descriptor_storage"]) == storage
+        assert file["descriptors"].dtype == (storage if "float" in storage else np.uint8)
+    _assert_alike(database, read_keyframe_database(path), error)
+
+
+@pytest.mark.parametrize("make", [_binary, _sift])
+def test_files_of_the_first_form_still_open(rng, random_poses, tmp_path, make):
+    database, path = _database(rng, random_poses, make), tmp_path / "keyframes.npz"
+    write_keyframe_database(path, database)
+    _make_first_form(path)
+    _assert_alike(database, read_keyframe_database(path), 0)
+
+
+@pytest.mark.parametrize("storage", ["float64", "float16"])
+def test_descriptors_stored_otherwise_than_said_are_refused(rng, random_poses, tmp_path, storage):
+    path = tmp_path / "keyframes.npz"
+    write_keyframe_database(path, _database(rng, random_poses, _sift))
+    with np.load(path) as file:
+        values = dict(file)
+    np.savez(path, **values | {"descriptor_storage": np.array(storage)})
+    with pytest.raises(SlamError, match=f"stored as {storage} in uint8"):
+        read_keyframe_database(path)
+
+
+@pytest.mark.parametrize(
+    "change", [lambda d: -d, lambda d: d / 512, lambda d: 2 * d, lambda d: 256 * (d == d.max())]
+)
+def test_only_what_sift_makes_is_stored_as_bytes(rng, change):
+    descriptors = _sift(rng, 5)
+    assert stored(descriptors)[0] == "bytes"
+    assert stored(change(descriptors).astype(np.float32))[0] == "float16"
+
+
+def _assert_alike(database, read, error):
     assert read.intrinsics == CAMERA
     assert np.array_equal(read.positions, database.positions)
     for ours, theirs in zip(database.keyframes, read.keyframes, strict=True):
@@ -52,11 +128,12 @@ def test_a_memory_survives_the_disk(rng, random_poses, tmp_path, is_binary):
         assert np.allclose(ours.points, theirs.points, atol=1e-6)
         assert np.allclose(ours.features.pixels, theirs.features.pixels, atol=1e-4)
         assert np.allclose(ours.features.sizes, theirs.features.sizes, rtol=1e-3)
-        assert np.array_equal(ours.features.descriptors, theirs.features.descriptors)
+        off = np.abs(ours.features.descriptors.astype(float) - theirs.features.descriptors)
+        assert off.max(initial=0) <= error
         assert ours.features.descriptors.dtype == theirs.features.descriptors.dtype
 
 
-def test_what_is_no_memory_is_refused(tmp_path):
+def test_what_is_no_database_is_refused(tmp_path):
     path = tmp_path / "keyframes.npz"
     with pytest.raises(SlamError, match="no keyframes"):
         read_keyframe_database(path)
@@ -72,7 +149,7 @@ def test_what_is_no_memory_is_refused(tmp_path):
 
 
 def test_joined_keyframes_share_one_frame(rng, random_poses):
-    database = _database(rng, random_poses, is_binary=False)
+    database = _database(rng, random_poses, _sift)
     around = joined([database.keyframes[2], database.keyframes[0]])
     world = se3.transform(database.keyframes[2].T_world_keyframe, around.points)
     expected = np.concatenate(
@@ -131,7 +208,7 @@ def test_held_back_frames_are_located(mapped, tmp_path, with_depth):
     assert right >= 0.9 * len(held_back)
 
 
-def test_the_same_memory_gives_the_same_answers(mapped):
+def test_the_same_database_gives_the_same_answers(mapped):
     slam, walk, database = mapped
     views = [slam.prepare(frame) for frame in (walk[11], walk[41])]
     forward = [_relocaliser(database).locate(view).T_world_camera for view in views]
