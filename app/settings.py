@@ -12,6 +12,7 @@ import tomli_w
 from pydantic import Field, ValidationError
 
 from roomgraph.app.errors import AppError
+from roomgraph.app.renamed_settings import new_name, old_name
 from roomgraph.datasets.files import write_text
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.settings import SemanticsSettings
@@ -128,6 +129,9 @@ def load_settings(
 
 def _likely(wrong: tuple[int | str, ...]) -> str:
     """Return the setting that was most likely meant by a name, or all that its table has."""
+    renamed = new_name(".".join(str(part) for part in wrong))
+    if renamed is not None:
+        return f"{renamed}, as it is called now"
     table: Any = AppSettings()
     for part in wrong[:-1]:
         table = getattr(table, str(part))
@@ -169,15 +173,23 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
 
 
 def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
-    """Return only the named values and tables, where they are there."""
+    """Return only the named values and tables, where they are there, be it by their old name."""
     chosen: dict[str, Any] = {}
     for name in names:
-        found: Any = values
-        for part in name.split("."):
-            found = found.get(part) if isinstance(found, dict) else None
+        found = _value(values, name)
+        if found is None:
+            found = _value(values, old_name(name))
         if found is not None:
             _set(chosen, name.split("."), found)
     return chosen
+
+
+def _value(values: dict[str, Any], name: str | None) -> Any:
+    """Return the value of a dotted name, None where there is none."""
+    found: Any = values
+    for part in () if name is None else name.split("."):
+        found = found.get(part) if isinstance(found, dict) else None
+    return None if name is None else found
 
 
 def _set(values: dict[str, Any], names: list[str], value: Any) -> None:
