@@ -123,7 +123,8 @@ class CalibratedClassifier(Estimator):
 
     def predict(self, X: ArrayLike) -> NDArray[Any]:
         """Return the class (N,) that most speaks for."""
-        return np.asarray(self.classes_[self.decisions(X).argmax(axis=1)])
+        decisions = self.decisions(X)
+        return np.asarray(self.classes_[decisions.argmax(axis=1)])
 
     def predict_proba(self, X: ArrayLike) -> FloatArray:
         """Return the probability (N, K) of each class."""

@@ -233,7 +233,7 @@ def test_another_package_named_datasets_is_not_in_the_way(tmp_path):
     (tmp_path / "datasets").mkdir()
     (tmp_path / "datasets/__init__.py").write_text("name = 'another'\n")
     code = (
-        "import sys; sys.path.insert(0, sys.argv[1]); import datasets; "
+        "import sys; sys.path.insert(0, sys.argv.pop(1)); import datasets; "
         "from roomgraph.app.cli.main import main; from roomgraph.datasets.camera import Camera; "
         "assert datasets.name == 'another'; main()"
     )
