@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,7 @@ from roomgraph.slam.frontend.localiser import Localiser, estimate_of
 from roomgraph.slam.frontend.motion_model import MotionModel, PredictionSettings
 from roomgraph.slam.frontend.optical_flow import FlowSettings, FlowTracker
 from roomgraph.slam.frontend.tracker import Tracker, TrackerSettings
+from roomgraph.slam.frontend.tracking_status import TrackingStatus
 from roomgraph.slam.geometry.icp import IcpSettings
 from roomgraph.slam.geometry.motion import MotionSettings
 from roomgraph.slam.geometry.noise import SensorNoise
@@ -42,8 +43,6 @@ from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettin
 from roomgraph.slam.reconstruction.point_map import LiveMap, MapSettings, PointMap, build_map
 from roomgraph.slam.relocalisation.word_index import WordIndexSettings
 from roomgraph.slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
-
-logger = logging.getLogger(__name__)
 
 FloatArray = NDArray[np.float64]
 
@@ -115,49 +114,45 @@ class Slam:
 
     def __init__(self, settings: SlamSettings, seed: int = 0) -> None:
         self.settings = settings
+        self._status = TrackingStatus()
         self._extractor = FeatureExtractor(settings.features)
         self._tracker = Tracker(settings.tracker, settings.motion, settings.noise, seed)
         aligner = KeyframeAligner(self._tracker, settings.icp, settings.noise)
-        self.mapper = Mapper(
-            settings.keyframes, settings.planes, settings.map, settings.noise, aligner,
-            LoopCloser(settings.loops, settings.word_index, aligner),
-            LocalBundleAdjustment(settings.local_bundle_adjustment, settings.noise),
-            PoseGraph(settings.pose_graph), seed,
-        )  # fmt: skip
-        self._backend = Backend(self.mapper)
-        depth = DepthOdometry(
-            settings.depth_odometry, settings.planes, settings.icp, settings.noise, seed
+        self._mapper = Mapper(
+            settings=settings.keyframes,
+            planes=settings.planes,
+            cloud=settings.map,
+            noise=settings.noise,
+            aligner=aligner,
+            loops=LoopCloser(settings.loops, settings.word_index, aligner),
+            local_bundle=LocalBundleAdjustment(settings.local_bundle_adjustment, settings.noise),
+            graph=PoseGraph(settings.pose_graph),
+            seed=seed,
         )
-        self._localiser = Localiser(
-            FlowTracker(settings.flow, settings.noise), self._tracker, depth,
-            MotionModel(settings.prediction),
-            DepthRefiner(settings.depth_refinement, settings.noise),
-            self._backend, settings.loss.min_correlation,
-        )  # fmt: skip
+        self._backend = Backend(self._mapper)
+        self._localiser = self._make_localiser(seed)
         self._live_map = LiveMap(settings.map, settings.noise)
         self._selector = KeyframeSelector(settings.keyframes, settings.depth_odometry.keyframe_m)
-        self._has_begun = self._is_lost = self._needs_features = False
-        self._last_seen_s, self._lost_in_a_row = 0.0, 0
 
     def prepare(self, frame: Frame) -> View:
         """Do the part that needs no state and may run ahead in a thread."""
         view = View(frame, self._extractor, self.settings.max_depth_m)
-        if self._needs_features and view.has_depth:
+        if self._status.needs_features and view.has_depth:
             view.describe()
         return view
 
     def process(self, frame: Frame | View) -> Tracking:
         """Take the next frame in and say where the camera is."""
         view = frame if isinstance(frame, View) else self.prepare(frame)
-        if not self._has_begun:
+        if self._status.is_initialising:
             return self._begin(view)
-        estimate = self._localiser.locate(view)
+        estimate, was_lost = self._localiser.locate(view), self._status.is_lost
         if estimate is None and view.has_depth:
-            estimate = self._relocalise(view)
-        self._needs_features = estimate is None or estimate.method != "flow"
+            estimate, was_lost = self._relocalise(view), True
         if estimate is None:
             return self._lose(view)
-        return self._accept(view, estimate)
+        state = TrackingState.RELOCALISED if was_lost else TrackingState.OK
+        return self._accept(view, estimate, state)
 
     def finish(self) -> tuple[LoopClosure, ...]:
         """Wait for the keyframes in the making: poses and map are final then.
@@ -165,17 +160,17 @@ class Slam:
         Returns the loops that became known with them, of which no frame told.
         """
         self._backend.finish()
-        return self._backend.closures()
+        return self._backend.new_closures()
 
     @property
-    def keyframes(self) -> dict[int, Keyframe]:
+    def keyframes(self) -> Mapping[int, Keyframe]:
         """The keyframes by id, but for those in the making."""
-        return self._backend.keyframes
+        return MappingProxyType(self._backend.keyframes)
 
     @property
-    def keyframe_poses(self) -> dict[int, FloatArray]:
+    def keyframe_poses(self) -> Mapping[int, FloatArray]:
         """T_world_keyframe (4, 4) of all keyframes, as estimated now."""
-        return self._backend.poses
+        return MappingProxyType(self._backend.poses)
 
     def pose_of(self, anchor: Anchor) -> FloatArray:
         """Return T_world_camera (4, 4) of an anchored pose, as estimated now."""
@@ -185,6 +180,29 @@ class Slam:
     def constraints(self) -> tuple[Constraint, ...]:
         """The constraints between keyframes that are not in the making."""
         return self._backend.constraints
+
+    @property
+    def closures(self) -> tuple[LoopClosure, ...]:
+        """All loops that hold between keyframes that are not in the making."""
+        return self._backend.closures
+
+    @property
+    def pose_graph(self) -> PoseGraph:
+        """The pose graph itself, to be read only, and only after `finish`.
+
+        Until then a thread changes it: `keyframe_poses` and `constraints` may be read at any time.
+        """
+        return self._mapper.graph
+
+    def submap_of(self, anchor: Anchor) -> int:
+        """Return the oldest keyframe's id of the sub-map that a pose hangs in, after `finish`.
+
+        Raises
+        ------
+        SlamError
+            Its keyframe is not in the graph: it failed in the making.
+        """
+        return self.pose_graph.component_of(anchor.keyframe)
 
     def is_placed(self, anchor: Anchor) -> bool:
         """Whether it is known where in the world a pose is: not so in a sub-map of its own."""
@@ -212,12 +230,27 @@ class Slam:
         }
         return partial(self._live_map.update, chosen, T_world_keyframe)
 
+    def _make_localiser(self, seed: int) -> Localiser:
+        s = self.settings
+        return Localiser(
+            flow=FlowTracker(s.flow, s.noise),
+            tracker=self._tracker,
+            depth=DepthOdometry(s.depth_odometry, s.planes, s.icp, s.noise, seed),
+            motion=MotionModel(s.prediction),
+            refiner=DepthRefiner(s.depth_refinement, s.noise),
+            known=self._backend,
+            status=self._status,
+            min_correlation=s.loss.min_correlation,
+        )
+
     def _begin(self, view: View) -> Tracking:
         """Start the map with the first frame that shows anything in depth."""
         if not view.has_depth:
             return _without_pose(view, TrackingState.SKIPPED)
-        self._has_begun = True
-        return self._make_keyframe(view, self._backend.start(view, np.eye(4)), TrackingState.OK)
+        keyframe = self._backend.start(view, np.eye(4))
+        tracking = self._make_keyframe(view, keyframe, TrackingState.OK)
+        self._status.began(view.frame)
+        return tracking
 
     def _relocalise(self, view: View) -> Estimate | None:
         """Look for the view among the keyframes that look alike, not far from where it was lost.
@@ -226,18 +259,17 @@ class Slam:
         keyframes to agree on where it belongs.
         """
         self._backend.finish()
-        seconds = max(0.0, view.frame.stamp_s - self._last_seen_s)
+        seconds = max(0.0, view.frame.stamp_s - self._status.last_seen_s)
         reach = self.settings.loss.reach_m + self.settings.loss.speed_m_s * seconds
         here = self._localiser.T_world_camera[:3, 3]
-        for candidate in self.mapper.loops.alike(view, 4):
+        for candidate in self._mapper.loops.alike(view, 4):
             located = self._tracker.locate(view, self._backend.around(candidate))
-            if located is None or not self.mapper.loops.is_sound(
+            if located is None or not self._mapper.loops.is_sound(
                 located.inliers, located.motion.T_camera_reference, view, self.keyframes[candidate]
             ):
                 continue
             estimate = estimate_of(located, view)
             if np.linalg.norm(self.pose_of(estimate.anchor)[:3, 3] - here) < reach:
-                self._is_lost = True
                 self._selector.outline = self._backend.known_points(estimate.reference)
                 return estimate
         return None
@@ -246,22 +278,30 @@ class Slam:
         """Say that the camera is lost, and begin a sub-map if there is enough to begin with."""
         self._localiser.stand_still()
         if not view.has_depth:
+            self._status.interrupted(view.frame)
             return _without_pose(view, TrackingState.SKIPPED)
-        logger.info("frame %d: lost", view.frame.index)
-        self._is_lost = True
-        self._lost_in_a_row += 1
-        loss = self.settings.loss
-        few = view.has_point.sum() < loss.min_features
-        if few or not loss.submaps or self._lost_in_a_row % loss.pause != 1 % loss.pause:
+        self._status.lost(view.frame)
+        if not self._may_begin_submap(view):
             return _without_pose(view, TrackingState.LOST)
         keyframe = self._backend.start(view, self._localiser.T_world_camera)
-        self._is_lost = False
-        return self._make_keyframe(view, keyframe, TrackingState.LOST)
+        tracking = self._make_keyframe(view, keyframe, TrackingState.LOST)
+        self._status.began_submap(view.frame)
+        return tracking
 
-    def _accept(self, view: View, estimate: Estimate) -> Tracking:
-        """Move on to a located view: make it a keyframe, or at least what to track against."""
-        state = TrackingState.RELOCALISED if self._is_lost else TrackingState.OK
-        self._is_lost, self._last_seen_s, self._lost_in_a_row = False, view.frame.stamp_s, 0
+    def _may_begin_submap(self, view: View) -> bool:
+        """Whether a lost view shows enough, and the last try is long enough ago."""
+        loss = self.settings.loss
+        is_due = self._status.lost_in_a_row % loss.pause == 1 % loss.pause
+        return loss.submaps and is_due and bool(view.has_point.sum() >= loss.min_features)
+
+    def _accept(self, view: View, estimate: Estimate, state: TrackingState) -> Tracking:
+        """Move on to a located view."""
+        tracking = self._move_to(view, estimate, state)
+        self._status.found(view.frame, by_flow=estimate.method == "flow")
+        return tracking
+
+    def _move_to(self, view: View, estimate: Estimate, state: TrackingState) -> Tracking:
+        """Make a located view a keyframe, or at least what to track against."""
         if self._selector.wants(view, estimate):
             known = self._known(view, estimate)
             if known is None:
@@ -307,7 +347,6 @@ class Slam:
         self, view: View, keyframe: int, state: TrackingState, estimate: Estimate | None = None
     ) -> Tracking:
         """Track against a view that has just become a keyframe."""
-        self._last_seen_s = view.frame.stamp_s
         anchor = Anchor(keyframe, np.eye(4))
         self._localiser.moved_to(view, anchor, None)
         self._selector.outline = self._localiser.follow(view, anchor).points
@@ -326,12 +365,28 @@ class Slam:
         # Not whether its features happen to be there: that depends on which thread was faster.
         is_looked_at = is_keyframe or (estimate is not None and estimate.method != "flow")
         return Tracking(
-            view.frame.index, view.frame.stamp_s, state, inliers,
-            "features" if estimate is None else estimate.method, anchor, self.pose_of(anchor),
-            is_keyframe, self._backend.closures(), seen,
-            view if is_looked_at else None,
-        )  # fmt: skip
+            index=view.frame.index,
+            stamp_s=view.frame.stamp_s,
+            state=state,
+            inliers=inliers,
+            method="features" if estimate is None else estimate.method,
+            anchor=anchor,
+            T_world_camera=self.pose_of(anchor),
+            is_keyframe=is_keyframe,
+            closures=self._backend.new_closures(),
+            pixels=seen,
+            view=view if is_looked_at else None,
+        )
 
 
 def _without_pose(view: View, state: TrackingState) -> Tracking:
-    return Tracking(view.frame.index, view.frame.stamp_s, state, 0, "none", None, None, False)
+    return Tracking(
+        index=view.frame.index,
+        stamp_s=view.frame.stamp_s,
+        state=state,
+        inliers=0,
+        method="none",
+        anchor=None,
+        T_world_camera=None,
+        is_keyframe=False,
+    )

@@ -150,7 +150,7 @@ class Finalisation:
         self.recorder.write_trajectory(trajectory)
         if keyframes:
             stamps_s = {k.id: k.stamp_s for k in keyframes}
-            self.recorder.write_pose_graph(self.slam.mapper.graph, stamps_s)
+            self.recorder.write_pose_graph(self.slam.pose_graph, stamps_s)
         self.recorder.write_keyframe_database(database_of(keyframes, placed))
 
     def _write_graph(self, graph: SemanticGraph, floor: FloorAnalysis | None) -> None:

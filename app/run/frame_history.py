@@ -70,7 +70,7 @@ class FrameHistory:
                 tracking = replace(tracking, state=state)
             else:
                 if anchor.keyframe in self.slam.keyframes:  # else it failed in the making
-                    submap = self.slam.mapper.graph.component_of(anchor.keyframe)
+                    submap = self.slam.submap_of(anchor)
                     way = (tracking.stamp_s, self.slam.pose_of(anchor))
                     apart.setdefault(submap, []).append(way)
                 tracking = replace(

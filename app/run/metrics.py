@@ -59,7 +59,7 @@ def run_metrics(
         "frames_skipped": len(sequence) - tracked - states[TrackingState.LOST],
         "frames_by_depth": sum(tracking.method == "depth" for tracking in trackings),
         "keyframes": len(slam.keyframes),
-        "loop_closures": len(slam.mapper.closures),
+        "loop_closures": len(slam.closures),
         "path_length_m": round(trajectory.length_m, 4),
         "seconds_total": round(seconds, 3),
         "fps": round(len(trackings) / seconds, 2) if seconds else 0.0,

@@ -63,6 +63,8 @@ class Backend:
         T_world_keyframe as far as known now, also of keyframes in the making.
     keyframes : dict of int to Keyframe
         The finished ones.
+    closures : tuple of LoopClosure
+        The loops between these that hold.
     constraints : tuple of Constraint
         Between these.
     placed : set of int
@@ -73,13 +75,14 @@ class Backend:
         self.mapper = mapper
         self.poses: dict[int, FloatArray] = {}
         self.keyframes: dict[int, Keyframe] = {}
+        self.closures: tuple[LoopClosure, ...] = ()
         self.constraints: tuple[Constraint, ...] = ()
         self.placed: set[int] = set()
         # One describes a keyframe while the other takes the one before into the map.
         self._describers = ThreadPoolExecutor(1, thread_name_prefix="describer")
         self._mappers = ThreadPoolExecutor(1, thread_name_prefix="mapper")
         self._pending: deque[_Pending] = deque()
-        self._closures: list[LoopClosure] = []
+        self._new_closures: list[LoopClosure] = []
         # By keyframe; made of the constraints when it is asked for.
         self._neighbours: defaultdict[int, set[int]] | None = None
         self._next = 0
@@ -121,9 +124,9 @@ class Backend:
         points = self._described(keyframe).points
         return points[np.isfinite(points[:, 2])]
 
-    def closures(self) -> tuple[LoopClosure, ...]:
+    def new_closures(self) -> tuple[LoopClosure, ...]:
         """Return the loops that became known since last asked."""
-        found, self._closures = tuple(self._closures), []
+        found, self._new_closures = tuple(self._new_closures), []
         return found
 
     def _linked(self, reference: int) -> set[int]:
@@ -175,14 +178,11 @@ class Backend:
             self._abandon()
             raise
         self._pending.popleft()
-        self.poses, self.constraints, self._neighbours = (
-            dict(update.poses),
-            update.constraints,
-            None,
-        )
+        self.poses, self.closures = dict(update.poses), update.closures
+        self.constraints, self._neighbours = update.constraints, None
         self.placed = set(update.placed)
         self.keyframes[update.keyframe.id] = update.keyframe
-        self._closures.extend(update.closures)
+        self._new_closures.extend(update.new_closures)
         self._chain()
 
     def _abandon(self) -> None:

@@ -37,7 +37,9 @@ class MapUpdate:
     poses : dict of int to (4, 4) float64
         T_world_keyframe of all, as estimated now.
     closures : tuple of LoopClosure
-        Loops that it closed.
+        All loops that hold.
+    new_closures : tuple of LoopClosure
+        Those of them that it closed.
     constraints : tuple of Constraint
         All constraints that hold.
     placed : frozenset of int
@@ -47,6 +49,7 @@ class MapUpdate:
     keyframe: Keyframe
     poses: dict[int, FloatArray]
     closures: tuple[LoopClosure, ...]
+    new_closures: tuple[LoopClosure, ...]
     constraints: tuple[Constraint, ...]
     placed: frozenset[int]
 
@@ -87,9 +90,16 @@ class Mapper:
             else ()
         )
         return Keyframe(
-            keyframe_id, frame.index, frame.stamp_s, view.features, view.points_camera,
-            self.loops.index.words_of(view.features.descriptors), planes, image, frame.intrinsics,
-        )  # fmt: skip
+            id=keyframe_id,
+            frame_index=frame.index,
+            stamp_s=frame.stamp_s,
+            features=view.features,
+            points=view.points_camera,
+            words=self.loops.index.words_of(view.features.descriptors),
+            planes=planes,
+            image=image,
+            intrinsics=frame.intrinsics,
+        )
 
     def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
         """Take in the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
@@ -129,18 +139,21 @@ class Mapper:
         measured = self.loops.close(view, keyframe, self.keyframes, self.graph, known)
         for constraint in (constraint for loop in measured for constraint in loop.constraints):
             self._add(constraint)
-        closures = tuple(
+        closed = tuple(
             LoopClosure(loop.constraint.second, loop.constraint.first, loop.inliers)
             for loop in measured
         )
-        self.closures.extend(closures)
+        self.closures.extend(closed)
         for constraint in self.graph.optimise():
             self._forget(constraint)
-        closures = tuple(closure for closure in closures if closure in self.closures)
         return MapUpdate(
-            keyframe, self.graph.poses, closures, tuple(self.graph.constraints),
-            frozenset(self.graph.members_of(self.graph.world)),
-        )  # fmt: skip
+            keyframe=keyframe,
+            poses=self.graph.poses,
+            closures=tuple(self.closures),
+            new_closures=tuple(closure for closure in closed if closure in self.closures),
+            constraints=tuple(self.graph.constraints),
+            placed=frozenset(self.graph.members_of(self.graph.world)),
+        )
 
     def around(self, reference: int) -> LocalMap:
         """Return the points of a keyframe and of those linked to it that look the same way."""

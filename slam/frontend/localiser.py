@@ -18,6 +18,7 @@ from roomgraph.slam.frontend.local_map import LocalMap
 from roomgraph.slam.frontend.motion_model import MotionModel
 from roomgraph.slam.frontend.optical_flow import FlowTracker, Template
 from roomgraph.slam.frontend.tracker import Located, Tracker
+from roomgraph.slam.frontend.tracking_status import TrackingStatus
 from roomgraph.slam.geometry.overlap import overlap
 from roomgraph.slam.geometry.range_image import RangeImage
 from roomgraph.slam.tracking import Anchor
@@ -52,6 +53,8 @@ class Localiser:
         What improves poses that few features hold.
     known : KnownMap
         The keyframes to go by.
+    status : TrackingStatus
+        Whether the last frame has a pose; read only.
     min_correlation : float
         Of a view found by features with its keyframe, at least.
     """
@@ -64,17 +67,17 @@ class Localiser:
         motion: MotionModel,
         refiner: DepthRefiner,
         known: KnownMap,
+        status: TrackingStatus,
         min_correlation: float,
     ) -> None:
         self.flow, self.tracker, self.depth = flow, tracker, depth
         self.motion, self.refiner = motion, refiner
-        self._map, self._min_correlation = known, min_correlation
+        self._map, self._status, self._min_correlation = known, status, min_correlation
         self._template: Template | None = None
         self._template_covariance: FloatArray = np.zeros((6, 6))
         self._last: Anchor | None = None
         self._last_view: View | None = None
         self._covariance: FloatArray = np.zeros((6, 6))
-        self._is_broken = False
 
     def locate(self, view: View) -> Estimate | None:
         """Return where a view is, going on from the last one; None if no means finds it.
@@ -99,10 +102,9 @@ class Localiser:
         estimate : Estimate or None
             What it was found by; None if it is where it is by definition: a keyframe.
         """
-        if self._last is not None and not self._is_broken:
+        if self._last is not None and self._status.is_tracking:
             T_camera_world = se3.inverse(self._pose_of(anchor))
             self.motion.moved(T_camera_world @ self._pose_of(self._last), self._since(view))
-        self._is_broken = False
         self._covariance = np.zeros((6, 6)) if estimate is None else estimate.covariance
         if estimate is None or estimate.method != "depth":
             self.depth.forget()
@@ -125,7 +127,6 @@ class Localiser:
     def stand_still(self) -> None:
         """Predict no motion: what it was is not known any more."""
         self.motion.stand_still()
-        self._is_broken = True
 
     def _pose_of(self, anchor: Anchor) -> FloatArray:
         return np.asarray(self._map.poses[anchor.keyframe] @ anchor.T_keyframe_camera)
@@ -149,7 +150,7 @@ class Localiser:
 
     def _held(self, view: View, estimate: Estimate) -> Estimate:
         """Take what a view leaves open from the motion so far."""
-        if self._is_broken:
+        if not self._status.is_tracking:
             return estimate
         T = self.motion.hold(
             estimate.T_camera_reference, estimate.information,
@@ -185,10 +186,14 @@ class Localiser:
         carried = se3.adjoint(T) @ template_covariance @ se3.adjoint(T).T
         covariance = inverted(motion.information) + carried
         return Estimate(
-            template.anchor.keyframe, T @ se3.inverse(template.anchor.T_keyframe_camera),
-            np.asarray(np.linalg.inv(covariance)), motion.count,
-            motion.count / len(template.pixels), "flow", seen,
-        )  # fmt: skip
+            reference=template.anchor.keyframe,
+            T_camera_reference=T @ se3.inverse(template.anchor.T_keyframe_camera),
+            information=np.asarray(np.linalg.inv(covariance)),
+            inliers=motion.count,
+            support=motion.count / len(template.pixels),
+            method="flow",
+            pixels=seen,
+        )
 
     def _by_features(self, view: View) -> Estimate | None:
         """Match features with the points of the keyframes around."""
@@ -231,21 +236,29 @@ class Localiser:
         )
         if step is None:
             return None
-        T = step.T_camera_last @ se3.inverse(self._last.T_keyframe_camera)
         # The step's error comes on top of that of the pose it starts from.
         carried = se3.adjoint(step.T_camera_last)
         covariance: FloatArray = carried @ self._covariance @ carried.T + inverted(step.information)
         return Estimate(
-            self._last.keyframe, T, np.asarray(np.linalg.inv(covariance)), 0, 0.0, "depth",
-            np.empty((0, 2)),
-        )  # fmt: skip
+            reference=self._last.keyframe,
+            T_camera_reference=step.T_camera_last @ se3.inverse(self._last.T_keyframe_camera),
+            information=np.asarray(np.linalg.inv(covariance)),
+            inliers=0,
+            support=0.0,
+            method="depth",
+            pixels=np.empty((0, 2)),
+        )
 
 
 def estimate_of(located: Located, view: View) -> Estimate:
     """Return a pose by features in the form that all poses share."""
     could = max(1, int(view.has_point.sum()))
     return Estimate(
-        located.local_map.reference, located.motion.T_camera_reference,
-        located.motion.information, located.inliers, located.inliers / could, "features",
-        view.features.pixels[located.matches[:, 1]],
-    )  # fmt: skip
+        reference=located.local_map.reference,
+        T_camera_reference=located.motion.T_camera_reference,
+        information=located.motion.information,
+        inliers=located.inliers,
+        support=located.inliers / could,
+        method="features",
+        pixels=view.features.pixels[located.matches[:, 1]],
+    )

@@ -55,7 +55,7 @@ class FloorAnalysis:
 
 
 def analyse_floor(
-    keyframes: dict[int, Keyframe],
+    keyframes: Mapping[int, Keyframe],
     T_world_keyframe: Mapping[int, FloatArray],
     floor_plane_settings: FloorPlaneSettings,
     volume_settings: OccupancyVolumeSettings,

@@ -85,7 +85,17 @@ def keyframes(boxes, cameras, T_world_map=None, rng=None, with_planes=True):
             planes = extract_planes(image.points.astype(float), NOISE, PlaneSettings(), 0)
         words = np.empty(0, dtype=np.intp)
         made.append(
-            Keyframe(i, i, i / 30, Features.none(), np.empty((0, 3)), words, planes, image, CAMERA)
+            Keyframe(
+                id=i,
+                frame_index=i,
+                stamp_s=i / 30,
+                features=Features.none(),
+                points=np.empty((0, 3)),
+                words=words,
+                planes=planes,
+                image=image,
+                intrinsics=CAMERA,
+            )
         )
         T_world[i] = T_world_map @ T
     return made, T_world

@@ -177,7 +177,7 @@ def test_one_poster_in_two_rooms_does_not_join_them(rng, offered):
         <= slam.keyframes[constraint.second].frame_index
     ]
     assert len(across) >= 2, "the poster is meant to be recognised"
-    assert slam.mapper.graph.components == 2
+    assert slam.pose_graph.components == 2
     assert not [t for t in trackings[26:] if t.anchor and slam.is_placed(t.anchor)]
 
 

@@ -1,8 +1,11 @@
 """A camera that is cut off: sub-maps begin, wait, and are joined where they meet."""
 
 import numpy as np
+import pytest
 
+from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
+from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.slam import Slam, SlamSettings
@@ -41,21 +44,46 @@ def _mirrored(frame):
     )  # fmt: skip
 
 
-def test_a_jump_and_the_way_back_are_one_map_in_the_end(rendered_sequence):
+@pytest.fixture(scope="module")
+def rejoined(rendered_walk):
+    """A jump, which begins a sub-map, and the way back, which joins it to the map."""
+    sequence = open_sequence(rendered_walk)
     order = [*range(18), *range(48, 60), *range(59, 5, -1)]
-    slam, trackings = _run(rendered_sequence, order)
+    return (*_run(sequence, order), sequence, order)
+
+
+def test_a_jump_and_the_way_back_are_one_map_in_the_end(rejoined):
+    slam, trackings, sequence, order = rejoined
     assert trackings[18].state is not TrackingState.OK
-    assert slam.mapper.graph.components == 1
-    error, placed = _ate(slam, trackings, rendered_sequence, order)
+    assert slam.pose_graph.components == 1
+    error, placed = _ate(slam, trackings, sequence, order)
     assert placed == len(order)
     assert error < 0.03
+
+
+def test_what_is_anchored_moves_with_its_keyframe(rejoined):
+    """The sub-map moves to its place at last: frames stay where they are before their keyframe."""
+    slam, trackings, sequence, order = rejoined
+    true = sequence.ground_truth.T_world_camera[order]
+    first = trackings[18].anchor.keyframe
+    begun = next(t for t in trackings if t.is_keyframe and t.anchor.keyframe == first)
+    hung = [t for t in trackings if t.anchor.keyframe == first and not t.is_keyframe]
+    assert hung
+    for tracking in hung:
+        T_then, T_now = tracking.T_world_camera, slam.pose_of(tracking.anchor)
+        assert np.linalg.norm((T_now - T_then)[:3, 3]) > 0.5
+        before = se3.inverse(begun.T_world_camera) @ T_then
+        now = se3.inverse(slam.keyframe_poses[first]) @ T_now
+        assert now == pytest.approx(before, abs=1e-6)
+        seen = se3.inverse(true[begun.index]) @ true[tracking.index]
+        assert now == pytest.approx(seen, abs=0.01)
 
 
 def test_what_never_meets_the_map_is_kept_apart(rendered_sequence):
     order = [*range(25), *range(30, 45)]
     slam, trackings = _run(rendered_sequence, order, lambda f: f if f.index < 25 else _mirrored(f))
     assert trackings[25].state is TrackingState.LOST
-    assert slam.mapper.graph.components >= 2
+    assert slam.pose_graph.components >= 2
     error, placed = _ate(slam, trackings, rendered_sequence, order)
     assert placed == 25
     assert error < 0.02

@@ -113,22 +113,20 @@ def test_a_jump_elsewhere_is_lost_and_said_so(rendered_sequence):
     assert all(t.anchor is None and t.T_world_camera is None for t in trackings[5:])
 
 
-def test_a_lost_camera_is_found_again(rendered_sequence):
-    frames = [rendered_sequence[i] for i in (*range(6), 40, *range(3, 9))]
-    slam = Slam(SlamSettings())
-    states = [slam.process(frame).state for frame in frames]
-    assert states[:6] == [TrackingState.OK] * 6
-    assert TrackingState.RELOCALISED in states[6:8] or states[6] is TrackingState.OK
-    assert all(s.has_pose for s in states[7:])
-
-
-def test_what_is_anchored_moves_with_its_keyframe(tracked):
-    slam, trackings, _ = tracked
-    last = trackings[-1]
-    assert np.allclose(
-        slam.pose_of(last.anchor),
-        slam.keyframe_poses[last.anchor.keyframe] @ last.anchor.T_keyframe_camera,
-    )
+@pytest.mark.parametrize("submaps", [True, False])
+def test_a_lost_camera_is_found_again(rendered_sequence, submaps):
+    """A glance elsewhere and back, with a sub-map of its own for the glance and without."""
+    order = [*range(6), 40, *range(3, 9)]
+    slam = Slam(SlamSettings.model_validate({"loss": {"submaps": submaps}}))
+    trackings = [slam.process(rendered_sequence[i]) for i in order]
+    ok, lost, found = TrackingState.OK, TrackingState.LOST, TrackingState.RELOCALISED
+    assert [t.state for t in trackings] == [*[ok] * 6, lost, found, *[ok] * 5]
+    assert (trackings[6].anchor is not None) == submaps
+    true = rendered_sequence.ground_truth.T_world_camera
+    for tracking, i in zip(trackings[7:], order[7:], strict=True):
+        assert slam.is_placed(tracking.anchor)
+        moved = se3.inverse(true[0]) @ true[i]
+        assert np.linalg.norm((slam.pose_of(tracking.anchor) - moved)[:3, 3]) < 0.02
 
 
 def test_a_sketch_shows_the_map_as_it_was_when_it_was_asked_for(rendered_sequence):

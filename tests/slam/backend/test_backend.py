@@ -51,22 +51,51 @@ def test_points_around_need_not_wait_for_the_map(rendered_sequence, held):
 
 
 def test_a_failed_keyframe_leaves_the_map_at_rest(rendered_sequence, monkeypatch):
-    insert, running = Mapper.insert, threading.Semaphore(0)
+    """Of those after it, the one that runs comes to its end, and the waiting ones never begin."""
+    failed, running, original = 2, 3, Mapper.insert
+    begun, ended, runs, free = [], [], threading.Event(), threading.Event()
 
-    def failing(self, keyframe, *arguments):
-        if keyframe.id == 2:
+    def insert(self, keyframe, *arguments):
+        begun.append(keyframe.id)
+        if keyframe.id == failed:
             raise np.linalg.LinAlgError("made to fail")
+        if keyframe.id == running:
+            runs.set()
+            free.wait(30)
         try:
-            return insert(self, keyframe, *arguments)
+            return original(self, keyframe, *arguments)
         finally:
-            running.release()
+            ended.append(keyframe.id)
 
-    monkeypatch.setattr(Mapper, "insert", failing)
+    monkeypatch.setattr(Mapper, "insert", insert)
     slam = Slam(wide_steps())
-    with pytest.raises(np.linalg.LinAlgError):
-        for frame in frames_of(select(rendered_sequence, stride=2)):
-            slam.process(frame)
+    for frame in frames_of(select(rendered_sequence, stride=2)):
+        tracking = slam.process(frame)
+        if tracking.is_keyframe and tracking.anchor.keyframe == running + 1:
+            break
+    assert runs.wait(30)
+    threading.Timer(0.5, free.set).start()
+    with pytest.raises(np.linalg.LinAlgError, match="made to fail"):
         slam.finish()
-    constraints = slam.mapper.graph.constraints
+    assert ended == [1, running]
+    # Whatever still waited would run before this.
     assert slam._backend._mappers.submit(lambda: True).result()
-    assert slam.mapper.graph.constraints == constraints
+    assert begun == [1, failed, running]
+
+
+def test_closures_are_those_of_the_keyframes_taken_in(rendered_sequence):
+    """What the mapper's thread finds meanwhile is not seen before."""
+    slam = Slam(wide_steps())
+    order = [*range(0, 60, 3), *range(59, -1, -3)]
+    told = []
+    for index in order:
+        told += slam.process(rendered_sequence[index]).closures
+        assert slam._backend._mappers.submit(lambda: True).result()
+        assert {end for c in slam.closures for end in (c.keyframe, c.matched_keyframe)} <= set(
+            slam.keyframes
+        )
+    told += slam.finish()
+    assert told
+    assert set(slam.closures) <= set(told)
+    loops = {(c.second, c.first) for c in slam.pose_graph.constraints if c.is_loop}
+    assert {(c.keyframe, c.matched_keyframe) for c in slam.closures} == loops

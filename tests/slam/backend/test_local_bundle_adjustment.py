@@ -23,15 +23,15 @@ def _keyframe(number, points, rng):
     features = Features(pixels, np.zeros((len(points), 8), np.float32), np.ones(len(points), "f4"))
     nothing = RangeImage(np.zeros((3, 4), np.uint16), np.zeros((3, 4, 3), np.uint8), CAMERA)
     return Keyframe(
-        number,
-        number,
-        float(number),
-        features,
-        CAMERA.backproject(pixels, z),
-        np.empty(0, dtype=np.intp),
-        (),
-        nothing,
-        CAMERA,
+        id=number,
+        frame_index=number,
+        stamp_s=float(number),
+        features=features,
+        points=CAMERA.backproject(pixels, z),
+        words=np.empty(0, dtype=np.intp),
+        planes=(),
+        image=nothing,
+        intrinsics=CAMERA,
     )
 
 

@@ -22,7 +22,15 @@ def views(rendered_sequence):
 
 def _estimate(T, inliers=30, sigma=0.02):
     information = np.diag(np.repeat([sigma / 2, sigma], 3) ** -2.0)
-    return Estimate(7, T, information, inliers, 0.5, "features", np.empty((0, 2)))
+    return Estimate(
+        reference=7,
+        T_camera_reference=T,
+        information=information,
+        inliers=inliers,
+        support=0.5,
+        method="features",
+        pixels=np.empty((0, 2)),
+    )
 
 
 def _refiner(first, **settings):

@@ -7,6 +7,7 @@ from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.features.extraction import FeatureExtractor
+from roomgraph.slam.frontend.motion_model import MotionModel
 from roomgraph.slam.slam import Slam, SlamSettings
 from roomgraph.slam.tracking import Anchor, TrackingState
 
@@ -26,6 +27,13 @@ def _without_depth(frame):
     return Frame(
         frame.index, frame.stamp_s, frame.colour, np.zeros_like(frame.depth), frame.intrinsics
     )
+
+
+def _dark(frame):
+    return Frame(
+        frame.index, frame.stamp_s, np.zeros_like(frame.colour), np.zeros_like(frame.depth),
+        frame.intrinsics,
+    )  # fmt: skip
 
 
 def _blurred(frame):
@@ -64,6 +72,25 @@ def test_no_features_are_looked_for_where_there_is_no_depth(rendered_sequence, m
         # Far from the walk's beginning: flow cannot follow, and nothing else is tried.
         view = slam.prepare(_without_depth(rendered_sequence[55]))
         assert slam.process(view).state is TrackingState.SKIPPED
+
+
+def test_motion_across_an_interruption_neither_counts_nor_holds(rendered_sequence, monkeypatch):
+    slam, used = Slam(SlamSettings()), []
+    for name in ("moved", "hold"):
+        method = getattr(MotionModel, name)
+
+        def noting(self, *arguments, method=method, name=name):
+            used.append(name)
+            return method(self, *arguments)
+
+        monkeypatch.setattr(MotionModel, name, noting)
+    both = ["hold", "moved"]
+    for i, expected in ((0, []), (1, both), (None, []), (2, []), (3, both)):
+        used.clear()
+        frame = _dark(rendered_sequence[2]) if i is None else rendered_sequence[i]
+        state = slam.process(frame).state
+        assert state is (TrackingState.SKIPPED if i is None else TrackingState.OK)
+        assert used == expected
 
 
 def _featured():

@@ -6,6 +6,9 @@ import pytest
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
+from roomgraph.slam.backend.alignment import KeyframeAligner
+from roomgraph.slam.backend.loop_closing import LoopCloser
+from roomgraph.slam.frontend.tracker import Tracker
 from roomgraph.slam.geometry.overlap import FEWEST, overlap
 from roomgraph.slam.geometry.range_image import thumbnail_of
 from roomgraph.slam.slam import Slam, SlamSettings
@@ -117,7 +120,9 @@ def test_a_loop_rests_on_matches_on_depth_and_on_looks(pair):
     slam = Slam(SlamSettings())
     slam.process(frame)
     slam.finish()
-    keyframe, loops = slam.keyframes[0], slam.mapper.loops
+    keyframe, s = slam.keyframes[0], slam.settings
+    aligner = KeyframeAligner(Tracker(s.tracker, s.motion, s.noise), s.icp, s.noise)
+    loops = LoopCloser(s.loops, s.word_index, aligner)
 
     def is_sound(other, inliers=100):
         return loops.is_sound(inliers, np.eye(4), slam.prepare(other), keyframe)
