@@ -17,7 +17,7 @@ from roomgraph.datasets.files import write_text
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.settings import SemanticsSettings
 from roomgraph.slam.checks import CheckSettings
-from roomgraph.slam.slam import SlamSettings
+from roomgraph.slam.settings import SlamSettings
 
 
 class RecordingSettings(Settings):

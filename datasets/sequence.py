@@ -60,7 +60,8 @@ class Sequence(Protocol):
     def __getitem__(self, index: int) -> Frame:
         """Read frame `index`; raises DatasetError if one of its images cannot be read.
 
-        Several threads may read at once.
+        Beyond the last frame it raises IndexError, so that a sequence can be looped over. Several
+        threads may read at once.
         """
         ...
 

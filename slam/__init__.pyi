@@ -1,8 +1,8 @@
 from .errors import SlamError as SlamError
 from .evaluation import compare as compare
 from .reconstruction.point_map import PointMap as PointMap
+from .settings import SlamSettings as SlamSettings
 from .slam import Slam as Slam
-from .slam import SlamSettings as SlamSettings
 from .tracking import Anchor as Anchor
 from .tracking import LoopClosure as LoopClosure
 from .tracking import Tracking as Tracking

@@ -8,91 +8,34 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
-from roomgraph.datasets.settings import Settings
 from roomgraph.slam.backend.alignment import KeyframeAligner
 from roomgraph.slam.backend.backend import Backend
 from roomgraph.slam.backend.local_bundle_adjustment import (
     LocalBundleAdjustment,
-    LocalBundleAdjustmentSettings,
 )
-from roomgraph.slam.backend.loop_closing import LoopCloser, LoopSettings
+from roomgraph.slam.backend.loop_closing import LoopCloser
 from roomgraph.slam.backend.mapper import Mapper
-from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph, PoseGraphSettings
-from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
+from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph
+from roomgraph.slam.features.extraction import FeatureExtractor
 from roomgraph.slam.features.view import View
-from roomgraph.slam.frontend.depth_odometry import DepthOdometry, DepthOdometrySettings
-from roomgraph.slam.frontend.depth_refinement import DepthRefinementSettings, DepthRefiner
+from roomgraph.slam.frontend.depth_odometry import DepthOdometry
+from roomgraph.slam.frontend.depth_refinement import DepthRefiner
 from roomgraph.slam.frontend.estimate import Estimate
-from roomgraph.slam.frontend.keyframe_selection import KeyframeSelector, KeyframeSettings
+from roomgraph.slam.frontend.keyframe_selection import KeyframeSelector
 from roomgraph.slam.frontend.localiser import Localiser, estimate_of
-from roomgraph.slam.frontend.motion_model import MotionModel, PredictionSettings
-from roomgraph.slam.frontend.optical_flow import FlowSettings, FlowTracker
-from roomgraph.slam.frontend.tracker import Tracker, TrackerSettings
+from roomgraph.slam.frontend.motion_model import MotionModel
+from roomgraph.slam.frontend.optical_flow import FlowTracker
+from roomgraph.slam.frontend.tracker import Tracker
 from roomgraph.slam.frontend.tracking_status import TrackingStatus
-from roomgraph.slam.geometry.icp import IcpSettings
-from roomgraph.slam.geometry.motion import MotionSettings
-from roomgraph.slam.geometry.noise import SensorNoise
-from roomgraph.slam.geometry.planes import PlaneSettings
 from roomgraph.slam.keyframe import Keyframe
-from roomgraph.slam.reconstruction.floor_plane import FloorPlaneSettings
-from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings
-from roomgraph.slam.reconstruction.point_map import LiveMap, MapSettings, PointMap, build_map
-from roomgraph.slam.relocalisation.word_index import WordIndexSettings
+from roomgraph.slam.reconstruction.point_map import LiveMap, PointMap, build_map
+from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 
 FloatArray = NDArray[np.float64]
-
-
-class LossSettings(Settings):
-    """What happens when the camera is lost."""
-
-    submaps: bool = Field(True, description="begin a sub-map where the camera is not found again")
-    min_features: int = Field(
-        100, ge=15, description="features with depth that a sub-map begins with, at least"
-    )
-    pause: int = Field(
-        10, ge=1, description="lost frames from one try to begin a sub-map to the next"
-    )
-    min_correlation: float = Field(
-        0.5,
-        ge=-1,
-        le=1,
-        description="of the grey levels of the surface that a view found by features shares with "
-        "its keyframe, at least: less, and the camera is lost",
-    )
-    reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
-    speed_m_s: float = Field(
-        1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
-    )
-
-
-class SlamSettings(Settings):
-    """All of SLAM's settings."""
-
-    max_depth_m: float = Field(8.0, gt=0, le=200, description="readings beyond are ignored")
-    features: FeatureSettings = FeatureSettings()
-    noise: SensorNoise = SensorNoise()
-    motion: MotionSettings = MotionSettings()
-    prediction: PredictionSettings = PredictionSettings()
-    flow: FlowSettings = FlowSettings()
-    tracker: TrackerSettings = TrackerSettings()
-    keyframes: KeyframeSettings = KeyframeSettings()
-    local_bundle_adjustment: LocalBundleAdjustmentSettings = LocalBundleAdjustmentSettings()
-    planes: PlaneSettings = PlaneSettings()
-    icp: IcpSettings = IcpSettings()
-    loops: LoopSettings = LoopSettings()
-    word_index: WordIndexSettings = WordIndexSettings()
-    pose_graph: PoseGraphSettings = PoseGraphSettings()
-    depth_refinement: DepthRefinementSettings = DepthRefinementSettings()
-    depth_odometry: DepthOdometrySettings = DepthOdometrySettings()
-    loss: LossSettings = LossSettings()
-    map: MapSettings = MapSettings()
-    floor_plane: FloorPlaneSettings = FloorPlaneSettings()
-    occupancy_volume: OccupancyVolumeSettings = OccupancyVolumeSettings()
 
 
 class Slam:

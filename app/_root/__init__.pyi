@@ -5,7 +5,7 @@ from .datasets.sequence import Sequence as Sequence
 from .semantics.graph.graph import SemanticGraph as SemanticGraph
 from .semantics.recognition.model import PlaceModel as PlaceModel
 from .semantics.recognition.model_files import load_model as load_model
+from .slam.settings import SlamSettings as SlamSettings
 from .slam.slam import Slam as Slam
-from .slam.slam import SlamSettings as SlamSettings
 
 __version__: str

@@ -9,23 +9,22 @@ import numpy as np
 
 from roomgraph.datasets.camera import DepthCamera, read_camera
 from roomgraph.datasets.errors import DatasetError
-from roomgraph.datasets.readers.folder import FolderReader
+from roomgraph.datasets.plugins import classes_by_name
 from roomgraph.datasets.readers.reader import Reader
-from roomgraph.datasets.readers.seven_scenes import SevenScenesReader
-from roomgraph.datasets.readers.tum import TumReader
 from roomgraph.datasets.sequence import Sequence
 
 # A layout is a line here; where several recognise a folder, the first one opens it.
-_READERS: tuple[Reader, ...] = (
-    TumReader(),
-    SevenScenesReader(),
-    FolderReader(),
+_CLASSES: dict[str, type[Reader]] = classes_by_name(
+    "roomgraph.datasets.readers",
+    "tum.TumReader",
+    "seven_scenes.SevenScenesReader",
+    "folder.FolderReader",
 )
-READERS: dict[str, Reader] = {reader.name: reader for reader in _READERS}
+READERS: dict[str, Reader] = {name: made() for name, made in _CLASSES.items()}
 
 
 def open_sequence(
-    root: Path,
+    root: str | Path,
     layout: str | None = None,
     camera: Path | None = None,
     depth_scale: float | None = None,
@@ -34,7 +33,7 @@ def open_sequence(
 
     Parameters
     ----------
-    root : Path
+    root : str or Path
         The sequence's folder, or its file if the layout is a single file.
     layout : str, optional
         One of `READERS`; guessed from the folder's files if not given.
@@ -49,6 +48,7 @@ def open_sequence(
         The folder is missing, empty or of no known layout, there is no such layout, or the reader
         refuses it.
     """
+    root = Path(root)
     if not root.exists():
         raise DatasetError(
             "no such folder", where=root, expected="a folder with an RGB-D sequence",

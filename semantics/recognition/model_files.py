@@ -72,7 +72,7 @@ def refuse_other(path: Path, overwrite: bool) -> None:
         )  # fmt: skip
 
 
-def load_model(path: Path) -> PlaceModel:
+def load_model(path: str | Path) -> PlaceModel:
     """Read a model that `save_model` wrote, also one of version 2.
 
     Raises
@@ -80,6 +80,7 @@ def load_model(path: Path) -> PlaceModel:
     SemanticsError
         `path` is not a folder with a whole model in it.
     """
+    path = Path(path)
     if not (path / DOCUMENT).is_file():
         raise SemanticsError(
             "not a place model", where=path, expected=f"a folder with {DOCUMENT} and {ARRAYS}",

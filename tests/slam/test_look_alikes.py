@@ -17,7 +17,8 @@ from roomgraph.datasets.synthetic.walk import camera_poses
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.backend.loop_verification import LoopVerifier
 from roomgraph.slam.evaluation import compare
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
 
 CAMERA = Intrinsics(320, 240, 262.0, 262.0, 159.5, 119.5)

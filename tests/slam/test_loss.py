@@ -8,7 +8,8 @@ from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
 
 

@@ -11,7 +11,8 @@ from roomgraph.datasets.sequence import select
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.reconstruction.point_map import LiveMap
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
 from tests.helpers import frames_of
 

@@ -23,7 +23,7 @@ def _list(wanted: bool) -> None:
 
 def export(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
-    format: Annotated[str, typer.Argument(metavar="FORMAT", help="One of those above.")],
+    format: Annotated[str, typer.Argument(metavar="FORMAT", help="As --list names it.")],
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Where to write; else into the run."),
@@ -37,13 +37,7 @@ def export(
 ) -> None:
     """Write one product of a run in another format.
 
-    \b
-    trajectory      tum, kitti, csv
-    pose graph      g2o
-    cloud           ply, pcd, las, e57
-    mesh            mesh-ply, obj, glb
-    graph           json, graphml, dot, graph-csv, hydra
-    occupancy grid  nav2
+    Its trajectory, pose graph, cloud, mesh, graph or occupancy grid; --list says in which formats.
 
     \b
     Examples:

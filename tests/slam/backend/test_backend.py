@@ -8,7 +8,8 @@ import pytest
 from roomgraph.datasets.sequence import select
 from roomgraph.slam.backend.backend import IN_FLIGHT
 from roomgraph.slam.backend.mapper import Mapper
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 from tests.helpers import frames_of
 
 

@@ -9,7 +9,7 @@ from roomgraph.datasets import se3
 from roomgraph.slam.frontend.depth_odometry import DepthOdometry
 from roomgraph.slam.frontend.depth_refinement import DepthRefinementSettings, DepthRefiner
 from roomgraph.slam.frontend.estimate import Estimate
-from roomgraph.slam.slam import SlamSettings
+from roomgraph.slam.settings import SlamSettings
 from tests.slam.helpers import NOISE, motion_error
 
 

@@ -8,7 +8,8 @@ from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.features.extraction import FeatureExtractor
 from roomgraph.slam.frontend.motion_model import MotionModel
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import Anchor, TrackingState
 
 

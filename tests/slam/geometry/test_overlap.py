@@ -11,7 +11,8 @@ from roomgraph.slam.backend.loop_closing import LoopCloser
 from roomgraph.slam.frontend.tracker import Tracker
 from roomgraph.slam.geometry.overlap import FEWEST, overlap
 from roomgraph.slam.geometry.range_image import thumbnail_of
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 
 LEAST = 0.7
 

@@ -21,7 +21,8 @@ from roomgraph.slam.relocalisation.keyframe_database import (
 )
 from roomgraph.slam.relocalisation.relocaliser import Relocaliser, RelocaliserSettings
 from roomgraph.slam.relocalisation.word_index import WordIndex, WordIndexSettings
-from roomgraph.slam.slam import Slam, SlamSettings
+from roomgraph.slam.settings import SlamSettings
+from roomgraph.slam.slam import Slam
 
 CAMERA = Intrinsics(640, 480, 525.0, 526.0, 319.5, 239.5)
 

@@ -1,0 +1,75 @@
+"""All settings of SLAM, a part for each module."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from roomgraph.datasets.settings import Settings
+from roomgraph.slam.backend.local_bundle_adjustment import (
+    LocalBundleAdjustmentSettings,
+)
+from roomgraph.slam.backend.loop_closing import LoopSettings
+from roomgraph.slam.backend.pose_graph import PoseGraphSettings
+from roomgraph.slam.features.extraction import FeatureSettings
+from roomgraph.slam.frontend.depth_odometry import DepthOdometrySettings
+from roomgraph.slam.frontend.depth_refinement import DepthRefinementSettings
+from roomgraph.slam.frontend.keyframe_selection import KeyframeSettings
+from roomgraph.slam.frontend.motion_model import PredictionSettings
+from roomgraph.slam.frontend.optical_flow import FlowSettings
+from roomgraph.slam.frontend.tracker import TrackerSettings
+from roomgraph.slam.geometry.icp import IcpSettings
+from roomgraph.slam.geometry.motion import MotionSettings
+from roomgraph.slam.geometry.noise import SensorNoise
+from roomgraph.slam.geometry.planes import PlaneSettings
+from roomgraph.slam.reconstruction.floor_plane import FloorPlaneSettings
+from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings
+from roomgraph.slam.reconstruction.point_map import MapSettings
+from roomgraph.slam.relocalisation.word_index import WordIndexSettings
+
+
+class LossSettings(Settings):
+    """What happens when the camera is lost."""
+
+    submaps: bool = Field(True, description="begin a sub-map where the camera is not found again")
+    min_features: int = Field(
+        100, ge=15, description="features with depth that a sub-map begins with, at least"
+    )
+    pause: int = Field(
+        10, ge=1, description="lost frames from one try to begin a sub-map to the next"
+    )
+    min_correlation: float = Field(
+        0.5,
+        ge=-1,
+        le=1,
+        description="of the grey levels of the surface that a view found by features shares with "
+        "its keyframe, at least: less, and the camera is lost",
+    )
+    reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
+    speed_m_s: float = Field(
+        1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
+    )
+
+
+class SlamSettings(Settings):
+    """All of SLAM's settings."""
+
+    max_depth_m: float = Field(8.0, gt=0, le=200, description="readings beyond are ignored")
+    features: FeatureSettings = FeatureSettings()
+    noise: SensorNoise = SensorNoise()
+    motion: MotionSettings = MotionSettings()
+    prediction: PredictionSettings = PredictionSettings()
+    flow: FlowSettings = FlowSettings()
+    tracker: TrackerSettings = TrackerSettings()
+    keyframes: KeyframeSettings = KeyframeSettings()
+    local_bundle_adjustment: LocalBundleAdjustmentSettings = LocalBundleAdjustmentSettings()
+    planes: PlaneSettings = PlaneSettings()
+    icp: IcpSettings = IcpSettings()
+    loops: LoopSettings = LoopSettings()
+    word_index: WordIndexSettings = WordIndexSettings()
+    pose_graph: PoseGraphSettings = PoseGraphSettings()
+    depth_refinement: DepthRefinementSettings = DepthRefinementSettings()
+    depth_odometry: DepthOdometrySettings = DepthOdometrySettings()
+    loss: LossSettings = LossSettings()
+    map: MapSettings = MapSettings()
+    floor_plane: FloorPlaneSettings = FloorPlaneSettings()
+    occupancy_volume: OccupancyVolumeSettings = OccupancyVolumeSettings()

@@ -1,0 +1,34 @@
+"""The program in the README runs as it stands."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import roomgraph
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+@pytest.mark.slow
+def test_the_program_of_the_readme(rendered_walk, mapped, tmp_path, monkeypatch, capsys):
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"<!-- python -->\n```python\n(.*?)```", text, re.DOTALL)
+    model, run = mapped
+    for name, target in (("walk", rendered_walk), ("places", model), ("out", run)):
+        (tmp_path / name).symlink_to(target)
+    monkeypatch.chdir(tmp_path)
+    exec(compile(program, "README.md", "exec"), {})
+    said = capsys.readouterr().out.splitlines()
+    assert re.match(r"\d+ keyframes, camera at \[", said[0])
+    assert said[1] in ("corridor", "elevator_area", "office")
+    assert re.match(r"\('\w+', .*\) \d+\.\d m \w+", said[2])
+
+
+def test_every_public_name_is_there():
+    for floor in ("", ".app", ".slam", ".semantics", ".datasets"):
+        module = __import__(f"roomgraph{floor}", fromlist=["*"])
+        assert module.__all__
+        for name in module.__all__:
+            assert getattr(module, name).__doc__
+    assert roomgraph.__version__
