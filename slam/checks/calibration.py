@@ -1,4 +1,4 @@
-"""Whether the focal lengths fit the motion between the frames."""
+"""Measuring the focal lengths from the motion between the frames."""
 
 from __future__ import annotations
 
@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from roomgraph.datasets import se3
-from roomgraph.datasets.camera import Camera, Intrinsics
+from roomgraph.datasets.camera import Intrinsics
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.settings import Settings
-from roomgraph.slam.checks.corrected_cameras import refocused
-from roomgraph.slam.checks.finding import Finding
 from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
 from roomgraph.slam.features.matching import match
 from roomgraph.slam.features.view import View
@@ -29,8 +27,6 @@ FloatArray = NDArray[np.float64]
 STARTS = (1.0, 0.8, 1.25)
 # Focal lengths further off than this, as a logarithm, are not to be believed.
 FARTHEST = np.log(4.0)
-# Focal lengths across and down that differ by less, as a logarithm, are told as one.
-ALIKE = 0.02
 # Steps of the adjustment; it ends when focal lengths move less than the last.
 ITERATIONS, CONVERGED = 15, 1e-4
 
@@ -112,54 +108,6 @@ def pair_of(first: Frame, others: Iterable[Frame], settings: CalibrationSettings
     return None
 
 
-def find_wrong_focal(
-    pairs: Sequence[Pair], given: Camera, settings: CalibrationSettings, noise: SensorNoise
-) -> Finding | None:
-    """Judge focal lengths by whether points of one frame lie rigidly in another.
-
-    Under a wrong focal length the points of a turning camera shear, and no rigid motion brings
-    the two frames together. Where the camera does not turn, focal length and way cannot be told
-    apart (Triggs et al., 2000, section 9): then the standard error is large, and nothing is said.
-    """
-    found, camera = measure_focal(pairs, settings, noise), pairs[0].camera
-    if found is None:
-        return None
-    off = np.log([found.fx / camera.fx, found.fy / camera.fy])
-    # Beyond the tolerance, the standard error itself is no more than a guess: too much is bent.
-    known = found.sigma < settings.tolerance / 2
-    sure = np.abs(off) > np.maximum(settings.tolerance, settings.min_sigmas * found.sigma)
-    if not np.any(known & sure):
-        return None
-    # A camera that turns about one axis tells one of the two: pixels keep their given shape.
-    off = np.where(known, off, off[np.argmin(found.sigma)])
-    fx, fy = np.array([camera.fx, camera.fy]) * np.exp(off)
-    observed = _described(camera, fx, fy)
-    swapped = np.abs(np.log([fx / camera.fy, fy / camera.fx])).max()
-    if known.all() and swapped < min(settings.tolerance, 0.5 * np.abs(off).max()):
-        return Finding(
-            "intrinsics", observed, "fx and fy look swapped: check the camera file (--camera)",
-            refocused(given, camera.fy, camera.fx),
-        )  # fmt: skip
-    return Finding(
-        "intrinsics", observed, "check fx and fy in the camera file (--camera)",
-        refocused(given, fx, fy),
-    )  # fmt: skip
-
-
-def _described(camera: Intrinsics, fx: float, fy: float) -> str:
-    """Return words for focal lengths that do not fit, with one figure where fx and fy are alike."""
-    given, found = (camera.fx, camera.fy), (fx, fy)
-    if all(abs(np.log(x / y)) < ALIKE for x, y in (given, found)):
-        return (
-            f"the focal length of the camera ({np.mean(given):.0f} pixels) does not fit the "
-            f"images: about {np.mean(found):.0f} does"
-        )
-    return (
-        f"the focal lengths of the camera (fx {camera.fx:.0f}, fy {camera.fy:.0f} pixels) do not "
-        f"fit the images: about fx {fx:.0f}, fy {fy:.0f} do"
-    )
-
-
 def measure_focal(
     pairs: Sequence[Pair], settings: CalibrationSettings, noise: SensorNoise
 ) -> Focal | None:
@@ -176,7 +124,14 @@ def measure_focal(
             best, start = moving, tried
     if len(best) < settings.min_pairs:
         return None
-    return _adjust([p for p, _ in best], [T for _, T in best], camera, start, settings, noise)
+    return _adjust(
+        [p for p, _ in best],
+        [T for _, T in best],
+        given=camera,
+        start=start,
+        settings=settings,
+        noise=noise,
+    )
 
 
 def _consistent(

@@ -14,12 +14,13 @@ from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.sequence import Sequence
 from roomgraph.datasets.settings import Settings
-from roomgraph.slam.checks.calibration import CalibrationSettings, Pair, find_wrong_focal, pair_of
+from roomgraph.slam.checks.calibration import CalibrationSettings, Pair, pair_of
 from roomgraph.slam.checks.corrected_cameras import registered
 from roomgraph.slam.checks.delay import Delay, DelaySettings, find_delay
 from roomgraph.slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
 from roomgraph.slam.checks.edges import Outlines, outlines
 from roomgraph.slam.checks.finding import Finding
+from roomgraph.slam.checks.focal_length import find_wrong_focal
 from roomgraph.slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
 from roomgraph.slam.checks.registration import Misplaced, RegistrationSettings, find_misplacement
 from roomgraph.slam.geometry.noise import SensorNoise

@@ -12,13 +12,9 @@ from roomgraph.datasets.camera import Camera, Intrinsics
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.readers.registration import register
 from roomgraph.slam.checks import CheckSettings, check_sequence, examine
-from roomgraph.slam.checks.calibration import (
-    CalibrationSettings,
-    Pair,
-    find_wrong_focal,
-    measure_focal,
-)
+from roomgraph.slam.checks.calibration import CalibrationSettings, Pair, measure_focal
 from roomgraph.slam.checks.depth_scale import DepthScaleSettings, find_wrong_scale
+from roomgraph.slam.checks.focal_length import find_wrong_focal
 from roomgraph.slam.checks.intrinsics import IntrinsicsSettings, find_wrong_intrinsics
 from roomgraph.slam.checks.registration import Alignment
 from roomgraph.slam.checks.statistics import gain_error
