@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets.synthetic.mesh import Image
 
-FloatArray = NDArray[np.float64]
 WIDTH = 4096
 LEVELS = 5
 GUTTER = 8

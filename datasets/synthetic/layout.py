@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-LABELS = ("corridor", "office", "laboratory", "kitchen", "bathroom", "elevator_area")
 WALL_M = 0.14
 CEILING_M = 2.6
 # Width of a room along the corridor, and its depth away from it: smallest and largest, metres.

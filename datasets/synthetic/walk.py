@@ -12,7 +12,7 @@ from scipy.ndimage import gaussian_filter1d, minimum_filter1d
 from scipy.spatial.transform import Rotation
 
 from roomgraph.datasets.synthetic.building import Building
-from roomgraph.datasets.synthetic.layout import Doorway, Rectangle, Room
+from roomgraph.datasets.synthetic.layout import Rectangle, Room
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.trajectory import Trajectory
 
@@ -20,7 +20,6 @@ FloatArray = NDArray[np.float64]
 Point = tuple[float, float]
 
 HEIGHT_M = 0.8
-CLEARANCE_M = 0.45
 # Kept from furniture by the corners of the way; the spline that rounds them stays inside.
 MARGIN_M = 0.52
 # Largest round through a room, across and into it.
@@ -196,36 +195,3 @@ def free_floor(building: Building, room: Room) -> Rectangle:
         ]  # fmt: skip
         free = max(cuts, key=lambda f: max(f[2] - f[0], 0.0) * max(f[3] - f[1], 0.0))
     return Rectangle(*(float(value) for value in free))
-
-
-def clearance(building: Building, xy: FloatArray) -> FloatArray:
-    """Return the distance (N,) of points (N, 2) to the nearest wall or furniture."""
-    obstacles = [Rectangle(*(float(v) for v in f)) for f in building.footprints]
-    distance = np.min([box.distance(xy) for box in obstacles], axis=0)
-    for room in building.rooms:
-        for wall in _wall_pieces(building, room):
-            distance = np.minimum(distance, wall.distance(xy))
-    return np.asarray(distance)
-
-
-def _wall_pieces(building: Building, room: Room) -> list[Rectangle]:
-    """Return a room's walls as degenerate rectangles, with the doorways left open."""
-    r, pieces = room.floor, []
-    doors = [door for door in building.doorways if room.name in door.rooms]
-    for axis, level in ((1, r.y0), (1, r.y1), (0, r.x0), (0, r.x1)):
-        low, high = (r.x0, r.x1) if axis == 1 else (r.y0, r.y1)
-        start = low
-        for begin, end in [*sorted(_openings(doors, axis, level)), (high, high)]:
-            ends = (start, level, begin, level) if axis == 1 else (level, start, level, begin)
-            pieces.append(Rectangle(*ends))
-            start = end
-    return pieces
-
-
-def _openings(doors: list[Doorway], axis: int, level: float) -> list[tuple[float, float]]:
-    along = "x" if axis == 1 else "y"
-    return [
-        (door.xy[1 - axis] - door.width_m / 2, door.xy[1 - axis] + door.width_m / 2)
-        for door in doors
-        if door.along == along and abs(door.xy[axis] - level) < 0.2
-    ]

@@ -28,19 +28,20 @@ JPEG_QUALITY = 95
 WORKERS = 2
 
 
-def write_sequence(
-    directory: Path, settings: BuildingSettings, progress: Progress | None = None
+def write_sequences(
+    directories: Mapping[Light, Path], settings: BuildingSettings, progress: Progress | None = None
 ) -> None:
-    """Render the walk under `settings.light` into a new folder.
+    """Render the walk once for several lights, a folder each; `settings.light` does not matter.
 
-    The folder gets ``rgb/``, ``depth/``, ``rgb.txt``, ``depth.txt``, ``groundtruth.txt``,
+    Each folder gets ``rgb/``, ``depth/``, ``rgb.txt``, ``depth.txt``, ``groundtruth.txt``,
     ``camera.json``, ``places.csv`` and ``building.json``. It appears under its name only when it
-    is whole. The same settings give the same bytes.
+    is whole. The same settings give the same bytes; the poses, the depth and the noise of a light
+    are the same as when it is written alone.
 
     Parameters
     ----------
-    directory : Path
-        The folder to make.
+    directories : mapping of str to Path
+        The folder to make for each light.
     settings : BuildingSettings
         What to render.
     progress : callable, optional
@@ -49,18 +50,7 @@ def write_sequence(
     Raises
     ------
     DatasetError
-        The folder is there already and not empty.
-    """
-    write_sequences({settings.light: directory}, settings, progress)
-
-
-def write_sequences(
-    directories: Mapping[Light, Path], settings: BuildingSettings, progress: Progress | None = None
-) -> None:
-    """Render the walk once for several lights, a folder each; `settings.light` does not matter.
-
-    As `write_sequence` in all else. The poses, the depth and the noise of a light are the same
-    as when it is written alone.
+        A folder is there already and not empty.
     """
     for directory in directories.values():
         if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):

@@ -56,24 +56,27 @@ class DenseDescriptors:
         return len(self.descriptors)
 
 
-def describe_densely(colour: NDArray[np.uint8], settings: DenseSettings) -> DenseDescriptors:
-    """Return the dense descriptors of a (H, W, 3) RGB or (H, W) grey image.
-
-    SIFT's descriptor (Lowe, 2004) on a regular grid and without its orientation, as scenes are
-    described (Lazebnik et al., 2006), with the root taken (Arandjelovic and Zisserman, 2012).
-    The histograms of all cells come from one triangular filter over eight images of gradients.
-    """
-    return describe_small(small_grey(colour, settings), settings)
-
-
 def small_grey(colour: NDArray[np.uint8], settings: DenseSettings) -> NDArray[np.uint8]:
-    """Return the grey image (h, w) of ``side * side`` pixels that the descriptors are made from."""
+    """Return the grey image (h, w) of ``side * side`` pixels that the descriptors are made from.
+
+    Parameters
+    ----------
+    colour : (H, W, 3) or (H, W) uint8
+        The image, RGB or grey.
+    settings : DenseSettings
+        Its `side`.
+    """
     grey = cv2.cvtColor(colour, cv2.COLOR_RGB2GRAY) if colour.ndim == 3 else colour
     return np.asarray(_resized(grey, settings, settings.side / np.sqrt(grey.size)), dtype=np.uint8)
 
 
 def describe_small(grey: NDArray[np.uint8], settings: DenseSettings) -> DenseDescriptors:
-    """Return the dense descriptors of an image from `small_grey`."""
+    """Return the dense descriptors of an image from `small_grey`.
+
+    SIFT's descriptor (Lowe, 2004) on a regular grid and without its orientation, as scenes are
+    described (Lazebnik et al., 2006), with the root taken (Arandjelovic and Zisserman, 2012).
+    The histograms of all cells come from one triangular filter over eight images of gradients.
+    """
     levels = [_level(grey, settings, 2.0 ** (-i / 2)) for i in range(settings.scales)]
     return DenseDescriptors(
         np.concatenate([descriptors for descriptors, _ in levels]),

@@ -78,11 +78,6 @@ class InstanceAccuracy:
         """Share of the true rooms that were found as a place of their own."""
         return len(self.recovered) / len(self.rooms) if self.rooms else float("nan")
 
-    @property
-    def ghosts(self) -> tuple[str, ...]:
-        """Places found that no true room is matched to."""
-        return tuple(place for place in self.places if place not in self.matches.values())
-
 
 def compare_labels(pairs: Iterable[tuple[str, str]]) -> LabelAccuracy:
     """Return the accuracy of (true label, predicted label) pairs."""

@@ -84,11 +84,6 @@ class SplitResult:
         """Share of images labelled rightly."""
         return float(np.mean(self.truth == self.found))
 
-    @property
-    def mean_per_class(self) -> float:
-        """Mean over the classes of the share labelled rightly."""
-        return float(np.mean(list(per_class([self]).values())))
-
 
 def per_class(results: Sequence[SplitResult]) -> dict[str, float]:
     """Return the share of the images of each class that were labelled rightly, over all splits."""

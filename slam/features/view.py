@@ -71,11 +71,6 @@ class View:
             self._thumbnail = thumbnail_of(self.frame)
         return self._thumbnail
 
-    @property
-    def is_described(self) -> bool:
-        """Whether the features have been found."""
-        return self._described is not None
-
     def describe(self) -> tuple[Features, NDArray[np.float64]]:
         """Find the features and their points now, if that has not been done."""
         with self._lock:

@@ -26,10 +26,6 @@ VIVID: tuple[Colour, ...] = (
     (196, 48, 42), (32, 84, 160), (44, 130, 72), (226, 168, 36), (120, 58, 132), (24, 140, 150),
     (214, 106, 34), (52, 52, 60), (150, 40, 70), (92, 116, 40), (230, 222, 206), (70, 110, 180),
 )  # fmt: skip
-FONTS = (
-    cv2.FONT_HERSHEY_SIMPLEX, cv2.FONT_HERSHEY_DUPLEX, cv2.FONT_HERSHEY_COMPLEX,
-    cv2.FONT_HERSHEY_TRIPLEX, cv2.FONT_HERSHEY_PLAIN,
-)  # fmt: skip
 
 
 def word(rng: Generator) -> str:

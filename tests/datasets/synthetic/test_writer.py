@@ -16,7 +16,7 @@ from roomgraph.datasets.readers.images import read_colour, read_depth
 from roomgraph.datasets.synthetic.building import build
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.synthetic.walk import walk
-from roomgraph.datasets.synthetic.writer import write_sequence, write_sequences
+from roomgraph.datasets.synthetic.writer import write_sequences
 from roomgraph.datasets.trajectory import read_tum
 
 QUICK = BuildingSettings(seed=2, width=48, height=36, step_m=0.5, turn_deg=20)
@@ -77,8 +77,8 @@ def test_lights_share_the_depth_but_not_the_colours(folders):
 
 
 def test_same_settings_same_bytes_other_seed_other_bytes(folders, tmp_path):
-    write_sequence(tmp_path / "again", QUICK)
-    write_sequence(tmp_path / "other", QUICK.model_copy(update={"seed": 3}))
+    write_sequences({"day": tmp_path / "again"}, QUICK)
+    write_sequences({"day": tmp_path / "other"}, QUICK.model_copy(update={"seed": 3}))
     first, again, other = (
         {p.relative_to(d).as_posix(): p.read_bytes() for p in d.rglob("*") if p.is_file()}
         for d in (folders[0]["day"], tmp_path / "again", tmp_path / "other")
@@ -90,7 +90,7 @@ def test_same_settings_same_bytes_other_seed_other_bytes(folders, tmp_path):
 def test_folder_in_use_is_left_alone(tmp_path):
     (tmp_path / "mine.txt").write_text("kept")
     with pytest.raises(DatasetError, match="there already"):
-        write_sequence(tmp_path, QUICK)
+        write_sequences({"day": tmp_path}, QUICK)
     assert (tmp_path / "mine.txt").read_text() == "kept"
 
 
@@ -99,7 +99,7 @@ def test_interrupted_writing_leaves_nothing_behind(tmp_path):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        write_sequence(tmp_path / "half", QUICK, stop)
+        write_sequences({"day": tmp_path / "half"}, QUICK, stop)
     assert not list(tmp_path.iterdir())
 
 

@@ -6,11 +6,20 @@ import pytest
 from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
-from roomgraph.semantics.descriptors.dense import DenseDescriptors, DenseSettings, describe_densely
+from roomgraph.semantics.descriptors.dense import (
+    DenseDescriptors,
+    DenseSettings,
+    describe_small,
+    small_grey,
+)
 from roomgraph.semantics.descriptors.fisher import FisherSettings
 from roomgraph.semantics.descriptors.fisher_encoder import FisherEncoder
 
 SETTINGS = DenseSettings(side=96, scales=2, step=6)
+
+
+def describe_densely(image, settings):
+    return describe_small(small_grey(image, settings), settings)
 
 
 def stripes(angle, size=(120, 160), period=9.0):

@@ -32,10 +32,12 @@ def test_the_motion_between_frames_is_found(rendered_sequence):
         assert len(pixels) == motion.count >= TRACKER.settings.min_inliers
 
 
-def test_features_are_not_looked_for(rendered_sequence):
+def test_features_are_not_looked_for(rendered_sequence, monkeypatch):
+    looked = []
+    monkeypatch.setattr(FeatureExtractor, "extract_image", lambda *image: looked.append(image))
     view = _view(rendered_sequence[5])
-    TRACKER.track(view, TRACKER.template(view, HERE), np.eye(4))
-    assert not view.is_described
+    assert TRACKER.track(view, TRACKER.template(view, HERE), np.eye(4)) is not None
+    assert not looked
 
 
 def test_what_cannot_be_followed_gives_no_pose(rendered_sequence):
