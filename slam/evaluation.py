@@ -72,9 +72,10 @@ def compare(
     E = se3.inverse(steps) @ (se3.inverse(P[:-1]) @ P[1:])
     angles = np.degrees([se3.rotation_angle(e) for e in E])
     return TrajectoryError(
-        _rms(errors), float(np.median(errors)), float(errors.max()),
-        _rms(np.linalg.norm(E[:, :3, 3], axis=1)), _rms(angles),
-        T, errors, estimate.stamps_s[paired],
+        ate_rmse_m=_rms(errors), ate_median_m=float(np.median(errors)),
+        ate_max_m=float(errors.max()), rpe_trans_rmse_m=_rms(np.linalg.norm(E[:, :3, 3], axis=1)),
+        rpe_rot_rmse_deg=_rms(angles), T_truth_estimate=T, errors_m=errors,
+        stamps_s=estimate.stamps_s[paired],
     )  # fmt: skip
 
 

@@ -59,12 +59,12 @@ class Whereabouts:
         The pose in the run's world.
     """
 
-    place: str
-    label: str
-    node: int | None
-    sureness: float
-    inliers: int
-    T_world_camera: NDArray[np.float64] | None
+    place: str = UNKNOWN
+    label: str = UNKNOWN
+    node: int | None = None
+    sureness: float = 0.0
+    inliers: int = 0
+    T_world_camera: NDArray[np.float64] | None = None
 
 
 class Locator:
@@ -96,14 +96,21 @@ class Locator:
         """Say where a frame was taken; one without readings is located by its colours alone."""
         found = self._relocaliser.locate(View(frame, self._extractor, self._max_depth_m))
         if not self.graph.nodes or found.best is None:
-            return Whereabouts(UNKNOWN, UNKNOWN, None, 0.0, 0, None)
+            return Whereabouts()
         if found.T_world_camera is None:
             return self._by_looks(found)
         T = found.T_world_camera
         node = self._nearest(T[:3, 3])
         place, label = self._place_at(T[:3, 3]) or (node.place, node.label)
         sureness = _sureness(found, self._relocation.min_inliers)
-        return Whereabouts(place, label, node.id, sureness, found.best.inliers, T)
+        return Whereabouts(
+            place=place,
+            label=label,
+            node=node.id,
+            sureness=sureness,
+            inliers=found.best.inliers,
+            T_world_camera=T,
+        )
 
     def _by_looks(self, found: Relocation) -> Whereabouts:
         """Take the place of most of the keyframes that look alike."""
@@ -116,8 +123,9 @@ class Locator:
         place = max(weights, key=lambda name: weights[name])
         share = weights[place] / max(sum(weights.values()), 1e-9)
         if share <= _MAJORITY:
-            return Whereabouts(UNKNOWN, UNKNOWN, None, share, 0, None)
-        return Whereabouts(place, nodes[place].label, nodes[place].id, share, 0, None)
+            return Whereabouts(sureness=share)
+        node = nodes[place]
+        return Whereabouts(place=place, label=node.label, node=node.id, sureness=share)
 
     def _nearest(self, position_world: NDArray[np.float64]) -> GraphNode:
         distances = np.linalg.norm(self.graph.positions - position_world, axis=1)

@@ -102,7 +102,14 @@ def bench_once(job: BenchJob) -> BenchRun:
     sequence = examined(sequence, settings).sequence
     with TemporaryDirectory() as scratch:
         folder, watch = RunFolder(Path(scratch)), _Watch()
-        pipeline = Pipeline(sequence, settings, model, Recorder(folder), NoViewer(), watch)
+        pipeline = Pipeline(
+            sequence,
+            settings,
+            model=model,
+            recorder=Recorder(folder),
+            viewer=NoViewer(),
+            progress=watch,
+        )
         before = time.process_time()
         metrics = pipeline.run()
         cpu_s = time.process_time() - before

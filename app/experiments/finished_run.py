@@ -49,7 +49,9 @@ def finished_run(
     with TemporaryDirectory() as scratch:
         folder = make_run_folder(Path(scratch) / "run", sequence.name, overwrite=False)
         nothing = OutputOptions(live=False, save=False, report=False)
-        metrics = map_sequence(sequence, settings, model, folder, nothing, terminal)
+        metrics = map_sequence(
+            sequence, settings, model=model, folder=folder, outputs=nothing, terminal=terminal
+        )
         graph, rows = read_graph_json(folder.graph_json), folder.read_frames()
     nodes = [(places.at(node.stamp_s), node.label) for node in graph.nodes]
     frames = [(places.at(float(row["timestamp"])), row["label"]) for row in rows]

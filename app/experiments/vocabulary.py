@@ -71,7 +71,13 @@ def run_vocabulary(data: list[Path], terminal: Terminal) -> list[Quantised]:
             seconds = time.process_time() - started
             found.append(
                 Quantised(
-                    name, number, seed, descriptors.shape, 1 - error / variance, error, seconds
+                    method=name,
+                    vectors=number,
+                    seed=seed,
+                    samples=descriptors.shape,
+                    accuracy=1 - error / variance,
+                    error=error,
+                    cpu_s=seconds,
                 )
             )
             advance(len(found), len(plan), f"{name}, {number} vectors")

@@ -43,4 +43,6 @@ def run_demo(
     sequence = open_sequence(strange_floor)
     folder = make_run_folder(output, sequence.name, overwrite=False)
     save_model(folder.model, model)
-    return folder, map_sequence(sequence, settings, model, folder, outputs, terminal)
+    return folder, map_sequence(
+        sequence, settings, model=model, folder=folder, outputs=outputs, terminal=terminal
+    )

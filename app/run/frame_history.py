@@ -159,10 +159,12 @@ def _view_of(
         if tracking.is_keyframe and anchor is not None and anchor.keyframe in T_world_keyframe:
             label_ids[anchor.keyframe] = frame.label.label_id
     return MapView(
-        points, label_ids[points.keyframes], tuple(T_world_keyframe),
-        np.array(list(T_world_keyframe.values())).reshape(-1, 4, 4), ends[~loops], ends[loops],
-        np.array([T[:3, 3] for _, T in way]).reshape(-1, 3),
-        tuple(tracking.index for tracking, _ in way), tuple(tracking.state for tracking, _ in way),
+        points=points, label_ids=label_ids[points.keyframes], keyframes=tuple(T_world_keyframe),
+        T_world_keyframe=np.array(list(T_world_keyframe.values())).reshape(-1, 4, 4),
+        constraints=ends[~loops], loops=ends[loops],
+        trajectory=np.array([T[:3, 3] for _, T in way]).reshape(-1, 3),
+        frames=tuple(tracking.index for tracking, _ in way),
+        states=tuple(tracking.state for tracking, _ in way),
     )  # fmt: skip
 
 

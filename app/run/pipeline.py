@@ -212,13 +212,15 @@ class Pipeline:
         self._label_but(0)
         self._take(self.labeller.finish())
         maker = Finalisation(
-            self.sequence.stamps_s, self.slam, self.topology, self.history, self.settings,
-            self.recorder, self.viewer, self.clock,
+            stamps_s=self.sequence.stamps_s, slam=self.slam, topology=self.topology,
+            history=self.history, settings=self.settings, recorder=self.recorder,
+            viewer=self.viewer, clock=self.clock,
         )  # fmt: skip
         made = maker.make()
         metrics = run_metrics(
-            self.sequence, self.slam, self.history, made.trajectory, made.graph, made.points,
-            self.clock, [*self.warnings, *made.warnings],
+            sequence=self.sequence, slam=self.slam, history=self.history,
+            trajectory=made.trajectory, graph=made.graph, points=made.points, clock=self.clock,
+            warnings=[*self.warnings, *made.warnings],
         )  # fmt: skip
         self.recorder.write_metrics(metrics)
         if failure is not None:
@@ -245,8 +247,8 @@ class Pipeline:
             path = truth.positions[first : last + 1]
             centres = se3.transform(se3.inverse(truth.T_world_camera[first]), path)
         return SessionView(
-            self.sequence.name, len(self.sequence), self.sequence.camera.intrinsics,
-            self.labels, centres,
+            name=self.sequence.name, frames=len(self.sequence),
+            intrinsics=self.sequence.camera.intrinsics, labels=self.labels, truth=centres,
         )  # fmt: skip
 
     def _state(self, tracking: Tracking) -> str:

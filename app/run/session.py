@@ -69,8 +69,8 @@ def map_sequence(
             _keep_camera(sequence.camera, folder, options, terminal)
         with terminal.progress(f"Mapping {sequence.name}") as advance:
             pipeline = Pipeline(
-                sequence, settings, model, Recorder(folder), viewer, advance,
-                warnings=map(str, found.findings),
+                sequence, settings, model=model, recorder=Recorder(folder), viewer=viewer,
+                progress=advance, warnings=map(str, found.findings),
             )  # fmt: skip
             try:
                 metrics = pipeline.run()

@@ -66,8 +66,8 @@ class FolderReader:
                 f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner"
             )
         return RecordedSequence(
-            root.resolve().name, root, camera, stamps,
-            tuple(c for _, c, _ in pairs), tuple(d for _, _, d in pairs),
+            name=root.resolve().name, root=root, camera=camera, stamps=stamps,
+            colour_files=tuple(c for _, c, _ in pairs), depth_files=tuple(d for _, _, d in pairs),
             ground_truth=_ground_truth(root), places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip
 

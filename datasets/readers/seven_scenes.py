@@ -59,10 +59,11 @@ class SevenScenesReader:
         if len(stems) > len(whole):
             notes.append(f"dropped {len(stems) - len(whole)} colour images without depth")
         return RecordedSequence(
-            root.resolve().name, root, camera, stamps, tuple(colour),
-            tuple(root / f"{stem}.depth.png" for stem in whole),
-            ground_truth=_read_poses(root, whole, stamps),
-            places=places_beside(root), notes=tuple(notes),
+            name=root.resolve().name, root=root, camera=camera, stamps=stamps,
+            colour_files=tuple(colour),
+            depth_files=tuple(root / f"{stem}.depth.png" for stem in whole),
+            ground_truth=_read_poses(root, whole, stamps), places=places_beside(root),
+            notes=tuple(notes),
         )  # fmt: skip
 
 

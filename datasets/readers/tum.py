@@ -46,7 +46,7 @@ class TumReader:
             f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
         )
         return RecordedSequence(
-            root.resolve().name, root, camera, stamps,
+            name=root.resolve().name, root=root, camera=camera, stamps=stamps,
             colour_files=tuple(colour), depth_files=tuple(depth),
             ground_truth=read_tum(truth) if truth.exists() else None,
             places=places_beside(root), notes=tuple(notes),

@@ -60,7 +60,12 @@ def evaluate_open_set(evaluation_set: EvaluationSet, progress: Progress) -> Open
         novel[kind], known[kind] = found[is_novel], found[~is_novel]
         progress(len(names) + i + 1, total)
     return OpenSetEvaluation(
-        classes, probabilities, evaluation_set.labels, familiarity, novel, known
+        classes=classes,
+        probabilities=probabilities,
+        truth=evaluation_set.labels,
+        familiarity=familiarity,
+        novel=novel,
+        known=known,
     )
 
 

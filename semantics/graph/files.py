@@ -162,23 +162,23 @@ def _graph(
     colours = tuple((int(r), int(g), int(b)) for r, g, b in labels["colours"])
     T = floor.get("T_map_world")
     return SemanticGraph(
-        LabelSpace(tuple(labels["labels"]), colours),
-        tuple(_read_node(node) for node in nodes),
-        tuple(_read_edge(edge) for edge in edges),
-        tuple(_read_room(values) for values in floor.get("places", ())),
-        tuple(_read_doorway(values) for values in floor.get("doorways", ())),
-        None if T is None else np.array(T, dtype=np.float64).reshape(4, 4),
+        labels=LabelSpace(tuple(labels["labels"]), colours),
+        nodes=tuple(_read_node(node) for node in nodes),
+        edges=tuple(_read_edge(edge) for edge in edges),
+        rooms=tuple(_read_room(values) for values in floor.get("places", ())),
+        doorways=tuple(_read_doorway(values) for values in floor.get("doorways", ())),
+        T_map_world=None if T is None else np.array(T, dtype=np.float64).reshape(4, 4),
     )
 
 
 def _read_node(values: dict[str, Any]) -> GraphNode:
     evidence = values.get("evidence")
     return GraphNode(
-        int(values["id"]), int(values["frame"]), float(values["stamp"]),
-        np.array(values["position"], dtype=np.float64).reshape(3),
-        str(values["label"]), int(values["label_id"]), str(values["place"]),
-        float(values["score"]), np.array(values["histogram"], dtype=np.float64),
-        Evidence() if evidence is None else Evidence.from_content(evidence),
+        id=int(values["id"]), frame=int(values["frame"]), stamp_s=float(values["stamp"]),
+        position_world=np.array(values["position"], dtype=np.float64).reshape(3),
+        label=str(values["label"]), label_id=int(values["label_id"]), place=str(values["place"]),
+        score=float(values["score"]), signature=np.array(values["histogram"], dtype=np.float64),
+        evidence=Evidence() if evidence is None else Evidence.from_content(evidence),
     )  # fmt: skip
 
 
@@ -189,9 +189,11 @@ def _read_edge(values: dict[str, Any]) -> GraphEdge:
 
 def _read_room(values: dict[str, Any]) -> RoomPolygon:
     return RoomPolygon(
-        str(values["name"]), str(values["label"]), int(values["label_id"]), float(values["score"]),
-        np.array(values["polygon"], dtype=np.float64).reshape(-1, 2), float(values["area"]),
-        np.array(values["centre"], dtype=np.float64).reshape(2),
+        name=str(values["name"]), label=str(values["label"]), label_id=int(values["label_id"]),
+        score=float(values["score"]),
+        polygon_map=np.array(values["polygon"], dtype=np.float64).reshape(-1, 2),
+        area_m2=float(values["area"]),
+        centre_map=np.array(values["centre"], dtype=np.float64).reshape(2),
     )  # fmt: skip
 
 

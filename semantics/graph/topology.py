@@ -139,9 +139,10 @@ class TopologicalMap:
         kept = [n for n in self._nodes if not partial or n.anchor.keyframe in T_world_keyframe]
         nodes = tuple(
             GraphNode(
-                i, node.frame, node.stamp_s, _position(node.anchor, T_world_keyframe),
-                node.label, node.label_id, self._place(node), node.score, node.signature,
-                node.evidence,
+                id=i, frame=node.frame, stamp_s=node.stamp_s,
+                position_world=_position(node.anchor, T_world_keyframe), label=node.label,
+                label_id=node.label_id, place=self._place(node), score=node.score,
+                signature=node.signature, evidence=node.evidence,
             )
             for i, node in enumerate(kept)
         )  # fmt: skip

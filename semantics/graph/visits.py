@@ -53,12 +53,14 @@ def summarise(graph: SemanticGraph) -> tuple[PlaceSummary, ...]:
         room = rooms.get(name)
         found.append(
             PlaceSummary(
-                name,
-                Counter(node.label for node in inside).most_common(1)[0][0],
-                room.score if room else sum(node.score for node in inside) / len(inside),
-                tuple(node.id for node in inside),
-                room.area_m2 if room else None,
-                tuple(Visit(s[0].stamp_s, s[-1].stamp_s) for s in stays if s[0].place == name),
+                name=name,
+                label=Counter(node.label for node in inside).most_common(1)[0][0],
+                score=room.score if room else sum(node.score for node in inside) / len(inside),
+                nodes=tuple(node.id for node in inside),
+                area_m2=room.area_m2 if room else None,
+                visits=tuple(
+                    Visit(s[0].stamp_s, s[-1].stamp_s) for s in stays if s[0].place == name
+                ),
             )
         )
     return tuple(found)

@@ -58,7 +58,13 @@ def folder_examples(root: Path) -> list[Example]:
     for folder in sorted(folders):
         _refuse_level_above(folder)
     examples = [
-        Example(str(path), folder.name, str(path), partial(read_colour, path), str(path))
+        Example(
+            name=str(path),
+            label=folder.name,
+            group=str(path),
+            read=partial(read_colour, path),
+            session=str(path),
+        )
         for folder in sorted(root.iterdir() if root.is_dir() else ())
         if folder.is_dir() and not folder.name.startswith(".")
         for path in sorted(folder.rglob("*"))
@@ -127,8 +133,9 @@ def _visits(sequence: sequences.Sequence) -> Iterator[Example]:
         if truth != last:
             visit, last = visit + 1, truth
         yield Example(
-            f"{sequence.name}@{stamp:.3f}", truth[0], f"{sequence.root}#{visit}",
-            partial(_colour, sequence, index), str(sequence.root), truth[1], float(stamp),
+            name=f"{sequence.name}@{stamp:.3f}", label=truth[0], group=f"{sequence.root}#{visit}",
+            read=partial(_colour, sequence, index), session=str(sequence.root), place=truth[1],
+            stamp_s=float(stamp),
         )  # fmt: skip
 
 

@@ -88,12 +88,12 @@ def label_rooms(
             kept = [max(shares, key=lambda label: shares[label])] if shares else [UNKNOWN]
         kept, nearest = _parted(
             kept,
-            shares,
-            graph,
-            node_cells,
-            inside,
-            regions.full == region,
-            settings.min_part_m2 / cell_m**2,
+            shares=shares,
+            graph=graph,
+            node_cells=node_cells,
+            inside=inside,
+            region=regions.full == region,
+            least_cells=settings.min_part_m2 / cell_m**2,
         )
         for which, label in enumerate(kept):
             number = len(labelled) + 1

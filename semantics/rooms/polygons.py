@@ -58,7 +58,14 @@ def with_rooms(
     is_here = np.array([node.frame in voted for node in graph.nodes])
     of_nodes = np.where(is_here, _lookup(regions.seen, node_cells, reach), 0)
     labelled, images = label_rooms(
-        graph, node_cells, regions, of_nodes, of_frames, votes, volume.cell_m, settings
+        graph,
+        node_cells=node_cells,
+        regions=regions,
+        of_nodes=of_nodes,
+        of_frames=of_frames,
+        votes=votes,
+        cell_m=volume.cell_m,
+        settings=settings,
     )
     names = _names(labelled)
     nodes = _placed(graph, labelled, names, is_here)
@@ -68,7 +75,14 @@ def with_rooms(
         if (images.full == part.number).any()
     )
     numbers = {part.number: names[i] for i, part in enumerate(labelled)}
-    doorways = find_doorways(images.seen, numbers, nodes, nodes_map, floor, settings.min_doorway_m)
+    doorways = find_doorways(
+        images.seen,
+        names=numbers,
+        nodes=nodes,
+        nodes_map=nodes_map,
+        floor=floor,
+        min_width_m=settings.min_doorway_m,
+    )
     return replace(graph, nodes=nodes, rooms=rooms, doorways=doorways, T_map_world=T)
 
 
@@ -149,6 +163,7 @@ def _room(
     """Outline a place's largest piece."""
     mask = largest_piece(mask)
     return RoomPolygon(
-        name, part.label, graph.labels.id_of(part.label), part.score, outline_of(mask, volume),
-        area_m2(mask, volume), centre_of(mask, volume),
+        name=name, label=part.label, label_id=graph.labels.id_of(part.label), score=part.score,
+        polygon_map=outline_of(mask, volume), area_m2=area_m2(mask, volume),
+        centre_map=centre_of(mask, volume),
     )  # fmt: skip

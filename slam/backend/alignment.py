@@ -142,7 +142,12 @@ class KeyframeAligner:
             return None
         if self.icp.on == "planes":
             aligned = align_planes(
-                other.planes, keyframe.planes, T_keyframe_other, information, self.noise, self.icp
+                other.planes,
+                keyframe.planes,
+                T_target_source=T_keyframe_other,
+                prior_information=information,
+                noise=self.noise,
+                settings=self.icp,
             )
             if aligned is None or not aligned.improves:
                 return None
@@ -151,11 +156,11 @@ class KeyframeAligner:
             T, H = align_surface(
                 other.image.every(2).points.astype(np.float64),
                 self._surface(keyframe),
-                T_keyframe_other,
-                information,
-                self.noise,
-                self.icp.max_surface_m,
-                self.icp.iterations,
+                T_target_cloud=T_keyframe_other,
+                prior_information=information,
+                noise=self.noise,
+                max_distance_m=self.icp.max_surface_m,
+                iterations=self.icp.iterations,
             )
         step = se3.logarithm(T @ se3.inverse(T_keyframe_other))
         # The features must still agree, and depth must know something.

@@ -167,11 +167,23 @@ class DepthOdometry:
         sigma = [self.settings.sigma_rotation_rad, self.settings.sigma_translation_m]
         weak = np.diag(np.repeat(sigma, 3) ** -2.0)
         T_last_camera, held = se3.inverse(T_camera_last), weak
-        aligned = align_planes(planes, self._last_planes, T_last_camera, weak, self.noise, self.icp)
+        aligned = align_planes(
+            planes,
+            self._last_planes,
+            T_target_source=T_last_camera,
+            prior_information=weak,
+            noise=self.noise,
+            settings=self.icp,
+        )
         if aligned is not None and aligned.improves:
             T_last_camera, held = aligned.T_target_source, weak + aligned.information
         T_last_camera, information = align_surface(
-            cloud, self._last, T_last_camera, held, self.noise, self.settings.fit_m
+            cloud,
+            self._last,
+            T_target_cloud=T_last_camera,
+            prior_information=held,
+            noise=self.noise,
+            max_distance_m=self.settings.fit_m,
         )
         # From the last camera's frame to this one's, where constraints are weighed.
         T_camera_last = se3.inverse(T_last_camera)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from roomgraph.datasets import se3
@@ -15,8 +14,6 @@ from roomgraph.slam.frontend.estimate import Estimate
 from roomgraph.slam.geometry.chi_square import CHI2_984_6DOF
 from roomgraph.slam.geometry.depth_alignment import Surface, align_surface, surface_of
 from roomgraph.slam.geometry.noise import SensorNoise
-
-FloatArray = NDArray[np.float64]
 
 
 class DepthRefinementSettings(Settings):
@@ -63,7 +60,13 @@ class DepthRefiner:
         A = se3.adjoint(T)
         known = A.T @ estimate.information @ A
         T_reference_camera, found = align_surface(
-            cloud, self._surface, se3.inverse(T), known, self.noise, s.max_surface_m, s.iterations
+            cloud,
+            self._surface,
+            T_target_cloud=se3.inverse(T),
+            prior_information=known,
+            noise=self.noise,
+            max_distance_m=s.max_surface_m,
+            iterations=s.iterations,
         )
         refined = se3.inverse(T_reference_camera)
         step = se3.logarithm(refined @ se3.inverse(T))

@@ -84,4 +84,11 @@ def analyse_floor(
             f"{left_out} of {len(keyframes)} keyframes lie in sub-maps that never met the "
             "map: it is without them",
         )
-    return FloorAnalysis(floor_plane, volume, grid, tuple(k.id for k in kept), path, warnings)
+    return FloorAnalysis(
+        floor_plane=floor_plane,
+        volume=volume,
+        grid=grid,
+        keyframes=tuple(k.id for k in kept),
+        path_map=path,
+        warnings=warnings,
+    )

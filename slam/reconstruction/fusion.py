@@ -128,8 +128,8 @@ class Fusion:
         rows, keys = rows[order], keys[order]
         points, colours, normals = _tallied(rows, cells_of(keys), self._sums, self.voxel_m)
         return Voxels(
-            keys, points, colours, normals, self._nearest(count)[rows],
-            self._views[rows].astype(np.int32),
+            keys=keys, points=points, colours=colours, normals=normals,
+            keyframes=self._nearest(count)[rows], views=self._views[rows].astype(np.int32),
         )  # fmt: skip
 
     def _nearest(self, count: int) -> NDArray[np.int32]:

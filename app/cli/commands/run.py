@@ -47,7 +47,15 @@ def run(
     outputs = OutputOptions(visualize, save_rrd, report)
     outputs.check()
     folder = make_run_folder(output, opened.name, overwrite)
-    metrics = map_sequence(opened, settings, places, folder, outputs, terminal, options=source)
+    metrics = map_sequence(
+        opened,
+        settings,
+        model=places,
+        folder=folder,
+        outputs=outputs,
+        terminal=terminal,
+        options=source,
+    )
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")
