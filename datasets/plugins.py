@@ -36,6 +36,19 @@ def classes_by_name(package: str, *entries: str) -> dict[str, Any]:
     return classes
 
 
+def known_name(name: str, classes: Mapping[str, Any]) -> str:
+    """Return a name that one of the classes has; for validators of settings.
+
+    Raises
+    ------
+    ValueError
+        No class has that name.
+    """
+    if name not in classes:
+        raise ValueError(f"one of {', '.join(classes)}")
+    return name
+
+
 def settings_by_name(title: str, classes: Mapping[str, Any]) -> type[Settings]:
     """Return a settings model with a part for each class: its ``settings_class`` under its name."""
     parts: dict[str, Any] = {

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field, field_validator
 
-from roomgraph.datasets.plugins import settings_by_name
+from roomgraph.datasets.plugins import known_name, settings_by_name
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.classifiers.classifier import PlaceClassifier
 from roomgraph.semantics.classifiers.registry import CLASSIFIERS
@@ -46,16 +46,12 @@ class TrainingSettings(Settings):
     @field_validator("descriptor")
     @classmethod
     def _is_descriptor(cls, name: str) -> str:
-        if name not in DESCRIPTORS:
-            raise ValueError(f"one of {', '.join(DESCRIPTORS)}")
-        return name
+        return known_name(name, DESCRIPTORS)
 
     @field_validator("classifier")
     @classmethod
     def _is_classifier(cls, name: str) -> str:
-        if name not in CLASSIFIERS:
-            raise ValueError(f"one of {', '.join(CLASSIFIERS)}")
-        return name
+        return known_name(name, CLASSIFIERS)
 
     def make_descriptor(self, features: FeatureSettings) -> ImageDescriptor:
         """Return the chosen descriptor, which has learned nothing yet.

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from roomgraph.semantics.recognition.transitions import without_staying
 from roomgraph.semantics.temporal.look import Look
 from roomgraph.semantics.temporal.odometer import INDEPENDENT_M
-from roomgraph.semantics.temporal.settings import LabellerSettings
 from roomgraph.semantics.temporal.temporal_model import Belief, TemporalModel
 
 FloatArray = NDArray[np.float64]
@@ -35,15 +34,15 @@ class PlaceFilter(TemporalModel):
     transitions : (K, K) float64
         Chance of each kind (column) after leaving a kind (row); rows sum to one, the diagonal is
         not used.
-    settings : LabellerSettings
-        Its `change_m`: metres walked in one kind of place, on average.
+    change_m : float
+        Metres walked in one kind of place, on average.
     """
 
     name = "filter"
 
-    def __init__(self, transitions: FloatArray, settings: LabellerSettings) -> None:
+    def __init__(self, transitions: FloatArray, change_m: float) -> None:
         self.transitions = without_staying(transitions)
-        self.change_m = settings.change_m
+        self.change_m = change_m
         self._belief: FloatArray | None = None
 
     def advance(self, look: Look) -> None:

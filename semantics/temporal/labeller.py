@@ -78,7 +78,7 @@ class PlaceLabeller:
         self.settings = settings
         if model is not None:
             temporal = TEMPORAL_MODELS[settings.method]
-            self._temporal = temporal(model.transitions, settings)
+            self._temporal = temporal(model.transitions, settings.change_m)
         self._odometer = Odometer()
         self._looks: list[Look] = []
         self._waiting: deque[tuple[int, FrameInput]] = deque()

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pydantic import Field, field_validator
 
+from roomgraph.datasets.plugins import known_name
 from roomgraph.datasets.settings import Settings
+from roomgraph.semantics.temporal.registry import TEMPORAL_MODELS
 
 
 class LabellerSettings(Settings):
@@ -31,11 +33,7 @@ class LabellerSettings(Settings):
     @field_validator("method")
     @classmethod
     def _is_known(cls, method: str) -> str:
-        from roomgraph.semantics.temporal.registry import TEMPORAL_MODELS
-
-        if method not in TEMPORAL_MODELS:
-            raise ValueError(f"one of {', '.join(TEMPORAL_MODELS)}")
-        return method
+        return known_name(method, TEMPORAL_MODELS)
 
     @field_validator("window")
     @classmethod

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.semantics.temporal.look import Look
-
-if TYPE_CHECKING:
-    from roomgraph.semantics.temporal.settings import LabellerSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,13 +27,13 @@ class TemporalModel(Protocol):
     ----------
     transitions : (K, K) float64
         Chance of each kind of place (column) after leaving a kind (row).
-    settings : LabellerSettings
-        How many frames count, and how long one stays in a kind of place.
+    change_m : float
+        Metres walked in one kind of place, on average.
     """
 
     name: ClassVar[str]
 
-    def __init__(self, transitions: NDArray[np.float64], settings: LabellerSettings) -> None: ...
+    def __init__(self, transitions: NDArray[np.float64], change_m: float) -> None: ...
 
     def advance(self, look: Look) -> None:
         """Take a look for good: `belief` will not be given it again."""

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.semantics.temporal.look import Look
-from roomgraph.semantics.temporal.settings import LabellerSettings
 from roomgraph.semantics.temporal.temporal_model import Belief, TemporalModel
 
 
@@ -20,7 +19,7 @@ class Vote(TemporalModel):
 
     name = "vote"
 
-    def __init__(self, transitions: NDArray[np.float64], settings: LabellerSettings) -> None:
+    def __init__(self, transitions: NDArray[np.float64], change_m: float) -> None:
         """Need neither."""
 
     def advance(self, look: Look) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from roomgraph.datasets.se3 import pose
@@ -9,10 +11,15 @@ from roomgraph.semantics.classifiers.linear_svm import LinearSvm
 from roomgraph.semantics.descriptors.words import WordsDescriptor, WordsSettings
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.semantics.recognition.model import PlaceModel
+from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.semantics.temporal.labeller import FrameLabel
 from roomgraph.semantics.temporal.look import FrameInput
 from roomgraph.slam.features.extraction import Features
 from roomgraph.slam.tracking import Anchor
+
+KINDS = ("bathroom", "corridor", "kitchen")
+# Rooms are only reached through the corridor.
+MOVES = count_transitions([["bathroom", "corridor", "kitchen", "corridor"] * 40], KINDS)
 
 
 def features(descriptors: np.ndarray) -> Features:
@@ -60,6 +67,12 @@ def frame_label(
         index, index / 30, label, labels.id_of(label), 0.9, label,
         view(0) if signature is None else signature,
     )  # fmt: skip
+
+
+def looks(kinds: Sequence[int], sure: float = 0.6) -> np.ndarray:
+    """Probabilities (N, 3) of looks that each show a kind, the others alike."""
+    other = (1 - sure) / 2
+    return np.array([[sure if k == i else other for i in range(3)] for k in kinds])
 
 
 def label_space() -> LabelSpace:

@@ -6,16 +6,7 @@ import numpy as np
 import pytest
 
 from roomgraph.semantics.graph.belief import propagate
-from roomgraph.semantics.recognition.transitions import count_transitions
-
-NAMES = ("bathroom", "corridor", "kitchen")
-# Rooms are only reached through the corridor.
-MOVES = count_transitions([["bathroom", "corridor", "kitchen", "corridor"] * 40], NAMES)
-
-
-def looks(kinds, sure=0.6):
-    other = (1 - sure) / 2
-    return np.array([[sure if k == i else other for i in range(3)] for k in kinds])
+from tests.semantics.helpers import MOVES, looks
 
 
 def test_on_a_chain_propagation_is_the_sum_over_all_paths():

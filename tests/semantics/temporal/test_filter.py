@@ -4,33 +4,23 @@ from roomgraph.semantics.recognition.model import PlacePrediction
 from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.semantics.temporal.filter import PlaceFilter
 from roomgraph.semantics.temporal.look import Look
-from roomgraph.semantics.temporal.settings import LabellerSettings
+from tests.semantics.helpers import KINDS, MOVES, looks
 
-NAMES = ("bathroom", "corridor", "kitchen")
-# Rooms are only reached through the corridor.
-MOVES = count_transitions([["bathroom", "corridor", "kitchen", "corridor"] * 40], NAMES)
-
-
-def looks(kinds, sure=0.6):
-    other = (1 - sure) / 2
-    return np.array([[sure if k == i else other for i in range(3)] for k in kinds])
-
-
-SETTINGS = LabellerSettings(change_m=4.0)
+CHANGE_M = 4.0
 
 
 def look(order, way_m, probabilities):
     probabilities = np.concatenate([[0.0], probabilities])
     label_id = int(probabilities.argmax())
     prediction = PlacePrediction(
-        NAMES[label_id - 1], label_id, probabilities[label_id], probabilities, np.empty(0)
+        KINDS[label_id - 1], label_id, probabilities[label_id], probabilities, np.empty(0)
     )
     return Look(order, order, way_m, prediction)
 
 
 def last_belief(ways, p, advanced=0):
     """The belief at the last look, after some were taken for good."""
-    found = PlaceFilter(MOVES, SETTINGS)
+    found = PlaceFilter(MOVES, CHANGE_M)
     taken = [look(i, way, row) for i, (way, row) in enumerate(zip(ways, p, strict=True))]
     for item in taken[:advanced]:
         found.advance(item)
@@ -42,7 +32,7 @@ def test_transitions_are_those_walked():
     assert not np.diag(MOVES).any()
     assert MOVES[0, 1] > 0.95
     assert 0 < MOVES[0, 2] < 0.05
-    np.testing.assert_allclose(count_transitions((), NAMES)[0], [0, 0.5, 0.5])
+    np.testing.assert_allclose(count_transitions((), KINDS)[0], [0, 0.5, 0.5])
 
 
 def test_the_filter_is_bayes_rule_by_hand():
@@ -61,7 +51,7 @@ def test_the_filter_is_bayes_rule_by_hand():
 def test_smoothing_agrees_with_all_paths_counted():
     kinds = [0, 0, 2, 1, 1]
     p, ways = looks(kinds), [0.15, 1.0, 1.0, 1.0, 1.0]
-    found = PlaceFilter(MOVES, SETTINGS).smoothed(ways, p)
+    found = PlaceFilter(MOVES, CHANGE_M).smoothed(ways, p)
     leave = 1 - np.exp(-1.0 / 4.0)
     move = (1 - leave) * np.eye(3) + leave * MOVES
     total = np.zeros((5, 3))
@@ -76,7 +66,7 @@ def test_smoothing_agrees_with_all_paths_counted():
 
 def test_a_lone_mistake_is_put_right_and_a_change_is_kept():
     kinds = [0, 0, 0, 2, 0, 0, 0, 1, 1, 1, 1]
-    found = PlaceFilter(MOVES, SETTINGS).smoothed([1.0] * 11, looks(kinds))
+    found = PlaceFilter(MOVES, CHANGE_M).smoothed([1.0] * 11, looks(kinds))
     assert list(found.argmax(axis=1)) == [0] * 7 + [1] * 4
 
 
