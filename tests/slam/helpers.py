@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.camera import Intrinsics
+from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.geometry.motion import Correspondences
 from roomgraph.slam.geometry.noise import SensorNoise
 
@@ -50,6 +53,19 @@ def room_cloud(rng, T_camera_world=None, count=6000, noise=0.0):
     if T_camera_world is not None:
         points = se3.transform(T_camera_world, points)
     return points + noise * rng.normal(size=points.shape)
+
+
+def dark(frame):
+    """Return a frame that shows nothing and reads no depth."""
+    return replace(frame, colour=np.zeros_like(frame.colour), depth=np.zeros_like(frame.depth))
+
+
+def way_of(slam, trackings):
+    """Return the trajectory of the frames that have a pose."""
+    posed = [t for t in trackings if t.anchor is not None]
+    return Trajectory(
+        np.array([t.stamp_s for t in posed]), np.array([slam.pose_of(t.anchor) for t in posed])
+    )
 
 
 def motion_error(T, truth):

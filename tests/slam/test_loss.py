@@ -11,6 +11,7 @@ from roomgraph.slam.evaluation import compare
 from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
+from tests.slam.helpers import dark
 
 
 def _run(sequence, order, change=lambda frame: frame, settings=None):
@@ -94,16 +95,8 @@ def test_what_never_meets_the_map_is_kept_apart(rendered_sequence):
 
 
 def test_a_cut_of_blank_frames_is_bridged(rendered_sequence):
-    def blank(frame):
-        return Frame(
-            frame.index, frame.stamp_s, np.zeros_like(frame.colour), np.zeros_like(frame.depth),
-            frame.intrinsics,
-        )  # fmt: skip
-
     order = list(range(60))
-    slam, trackings = _run(
-        rendered_sequence, order, lambda f: blank(f) if 20 <= f.index < 30 else f
-    )
+    slam, trackings = _run(rendered_sequence, order, lambda f: dark(f) if 20 <= f.index < 30 else f)
     assert all(t.state is TrackingState.SKIPPED for t in trackings[20:30])
     error, placed = _ate(slam, trackings, rendered_sequence, order)
     assert all(slam.is_placed(t.anchor) for t in trackings[:20])

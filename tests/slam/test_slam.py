@@ -8,13 +8,13 @@ import pytest
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.sequence import select
-from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.reconstruction.point_map import LiveMap
 from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
 from tests.helpers import frames_of
+from tests.slam.helpers import way_of
 
 
 def _track(sequence, settings=None, change=lambda frame: frame):
@@ -23,11 +23,7 @@ def _track(sequence, settings=None, change=lambda frame: frame):
 
 
 def _error(slam, trackings, sequence):
-    posed = [t for t in trackings if t.anchor is not None]
-    estimate = Trajectory(
-        np.array([t.stamp_s for t in posed]), np.array([slam.pose_of(t.anchor) for t in posed])
-    )
-    return compare(estimate, sequence.ground_truth)
+    return compare(way_of(slam, trackings), sequence.ground_truth)
 
 
 def _blank(frame):

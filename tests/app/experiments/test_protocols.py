@@ -1,20 +1,12 @@
 import json
-import sys
 
 import cv2
 import numpy as np
 import pytest
 
-from roomgraph.app.cli.main import main
 from roomgraph.app.experiments.data import turned
+from tests.app.command import roomgraph
 from tests.semantics.recognition.test_training import image
-
-
-def roomgraph(monkeypatch, *arguments):
-    monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])
-    with pytest.raises(SystemExit) as end:
-        main()
-    return end.value.code
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,7 @@ import pytest
 
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.recognition.model_files import load_model, save_model
-from tests.semantics.helpers import descriptors_of, features, tiny_model
-
-
-@pytest.fixture(scope="module")
-def model():
-    return tiny_model()
+from tests.semantics.helpers import descriptors_of, features
 
 
 def test_predicts_the_place(model):

@@ -5,12 +5,7 @@ from pydantic import ValidationError
 from roomgraph.semantics.temporal.labeller import PlaceLabeller
 from roomgraph.semantics.temporal.look import FrameInput
 from roomgraph.semantics.temporal.settings import LabellerSettings
-from tests.semantics.helpers import frame, tiny_model
-
-
-@pytest.fixture(scope="module")
-def model():
-    return tiny_model()
+from tests.semantics.helpers import frame
 
 
 def run(model, words, window):

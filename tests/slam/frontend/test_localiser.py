@@ -4,37 +4,26 @@ import cv2
 import numpy as np
 
 from roomgraph.datasets.frame import Frame
-from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.features.extraction import FeatureExtractor
 from roomgraph.slam.frontend.motion_model import MotionModel
 from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import Anchor, TrackingState
+from tests.slam.helpers import dark, way_of
 
 
 def _track(sequence, frames, change):
     slam = Slam(SlamSettings())
     trackings = [slam.process(change(sequence[i])) for i in range(frames)]
     slam.finish()
-    estimate = Trajectory(
-        np.array([t.stamp_s for t in trackings if t.anchor]),
-        np.array([slam.pose_of(t.anchor) for t in trackings if t.anchor]),
-    )
-    return trackings, compare(estimate, sequence.ground_truth)
+    return trackings, compare(way_of(slam, trackings), sequence.ground_truth)
 
 
 def _without_depth(frame):
     return Frame(
         frame.index, frame.stamp_s, frame.colour, np.zeros_like(frame.depth), frame.intrinsics
     )
-
-
-def _dark(frame):
-    return Frame(
-        frame.index, frame.stamp_s, np.zeros_like(frame.colour), np.zeros_like(frame.depth),
-        frame.intrinsics,
-    )  # fmt: skip
 
 
 def _blurred(frame):
@@ -88,7 +77,7 @@ def test_motion_across_an_interruption_neither_counts_nor_holds(rendered_sequenc
     both = ["hold", "moved"]
     for i, expected in ((0, []), (1, both), (None, []), (2, []), (3, both)):
         used.clear()
-        frame = _dark(rendered_sequence[2]) if i is None else rendered_sequence[i]
+        frame = dark(rendered_sequence[2]) if i is None else rendered_sequence[i]
         state = slam.process(frame).state
         assert state is (TrackingState.SKIPPED if i is None else TrackingState.OK)
         assert used == expected
