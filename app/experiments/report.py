@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from roomgraph.app.experiments.pictures import draw
+from roomgraph.app.rounding import rounded
 from roomgraph.datasets.files import write_text
 from roomgraph.semantics.evaluation.accuracy import LabelAccuracy, compare_labels
 from roomgraph.semantics.evaluation.calibration import (
@@ -75,10 +76,10 @@ class ProtocolReport:
             "protocol": self.name,
             "recipe": self.recipe,
             "data": list(self.data),
-            "accuracy_mean": _rounded(np.mean(accuracies)),
-            "accuracy_std": _rounded(np.std(accuracies)),
-            "class_mean": _rounded(np.mean(list(per_class(self.counted).values()))),
-            "per_class": {k: _rounded(v) for k, v in per_class(self.counted).items()},
+            "accuracy_mean": rounded(np.mean(accuracies)),
+            "accuracy_std": rounded(np.std(accuracies)),
+            "class_mean": rounded(np.mean(list(per_class(self.counted).values()))),
+            "per_class": {k: rounded(v) for k, v in per_class(self.counted).items()},
             "rows": [_row(name, [t for t in self.results if t.row == name]) for name in self.rows],
             "confusion": {
                 "labels": list(self.confusion.names),
@@ -102,10 +103,10 @@ def open_set_figures(open_set: OpenSetEvaluation) -> dict[str, Any]:
     index = np.array([open_set.classes.index(str(name)) for name in open_set.truth])
     areas = {k: auroc(open_set.known[k], v) for k, v in open_set.novel.items() if len(v)}
     return {
-        "ece": _rounded(expected_calibration_error(confidence, right)),
-        "brier": _rounded(brier_score(open_set.probabilities, index)),
-        "unknown_auroc_mean": _rounded(np.mean(list(areas.values()))),
-        "unknown_auroc": {name: _rounded(value) for name, value in areas.items()},
+        "ece": rounded(expected_calibration_error(confidence, right)),
+        "brier": rounded(brier_score(open_set.probabilities, index)),
+        "unknown_auroc_mean": rounded(np.mean(list(areas.values()))),
+        "unknown_auroc": {name: rounded(value) for name, value in areas.items()},
     }
 
 
@@ -149,13 +150,9 @@ def _row(name: str, results: Sequence[SplitResult]) -> dict[str, Any]:
     accuracies = [result.accuracy for result in results]
     return {
         "name": name,
-        "accuracy_mean": _rounded(np.mean(accuracies)),
-        "accuracy_std": _rounded(np.std(accuracies)),
-        "class_mean": _rounded(np.mean(list(per_class(results).values()))),
+        "accuracy_mean": rounded(np.mean(accuracies)),
+        "accuracy_std": rounded(np.std(accuracies)),
+        "class_mean": rounded(np.mean(list(per_class(results).values()))),
         "results": len(results),
         "images": sum(len(result.truth) for result in results),
     }
-
-
-def _rounded(value: Any) -> float:
-    return round(float(value), 4)

@@ -16,6 +16,7 @@ from roomgraph.datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.datasets.vectors import arc_lengths
 from roomgraph.semantics.evaluation.visible_rooms import RoomIndex
 from roomgraph.semantics.recognition.examples import Example
 
@@ -138,16 +139,14 @@ def _floor_points(frame: Frame, T_world_camera: NDArray[np.float64]) -> NDArray[
 
 def _to_changes(positions: NDArray[np.float64], groups: NDArray[np.str_]) -> NDArray[np.float64]:
     """Return the way (N,) along a walk to where the group changes, infinite if it never does."""
-    steps = np.linalg.norm(np.diff(positions, axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
+    along = arc_lengths(positions)
     changes = np.flatnonzero(groups[1:] != groups[:-1])
     borders = (along[changes] + along[changes + 1]) / 2
     return np.asarray(np.abs(along[:, None] - borders).min(axis=1, initial=np.inf))
 
 
-def _nearest(truth: Trajectory, examples: Sequence[Example]) -> NDArray[np.intp]:
-    stamps = np.array([example.stamp_s for example in examples])
-    return np.asarray(np.abs(truth.stamps_s[None] - stamps[:, None]).argmin(axis=1))
+def _nearest(truth: Trajectory, examples: Sequence[Example]) -> NDArray[np.int64]:
+    return truth.nearest(np.array([example.stamp_s for example in examples]), np.inf)
 
 
 def _key(example: Example) -> tuple[str, float]:

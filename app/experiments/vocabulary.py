@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from roomgraph.app.console import Terminal
 from roomgraph.app.experiments.walks import DESCRIPTOR_SEED, STRIDE, data_walks, rendered_walks
+from roomgraph.app.rounding import rounded
 from roomgraph.datasets.files import replacing, write_text
 from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 from roomgraph.semantics.recognition.preparation import prepare_images
@@ -176,10 +177,10 @@ def _row(found: list[Quantised], method: str, number: int) -> dict[str, Any]:
     return {
         "method": method,
         "vectors": number,
-        "accuracy_mean": round(float(np.mean(accuracy)), 4),
-        "accuracy_std": round(float(np.std(accuracy)), 4),
-        "error": round(float(np.mean([q.error for q in own])), 2),
-        "cpu_s": round(float(np.median([q.cpu_s for q in own])), 3),
+        "accuracy_mean": rounded(np.mean(accuracy)),
+        "accuracy_std": rounded(np.std(accuracy)),
+        "error": rounded(np.mean([q.error for q in own]), 2),
+        "cpu_s": rounded(np.median([q.cpu_s for q in own]), 3),
     }
 
 

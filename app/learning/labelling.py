@@ -14,7 +14,7 @@ from rich.table import Table
 from roomgraph.app.console import Advance
 from roomgraph.app.learning.training import labelled_examples
 from roomgraph.app.prefetch import prefetch
-from roomgraph.app.storage.input import open_input
+from roomgraph.app.storage.input import InputOptions
 from roomgraph.datasets import sequence as sequences
 from roomgraph.datasets.errors import DatasetError, RoomgraphError
 from roomgraph.datasets.files import write_text
@@ -68,7 +68,7 @@ def label_items(
         There is nothing to label, or an image cannot be read.
     """
     if dataset is not None or camera is not None or _is_sequence(data):
-        sequence = open_input(data, dataset, camera)
+        sequence = InputOptions(sequence=data, dataset=dataset, camera=camera).open()
         return list(_label_sequence(model, sequence, settings or LabellerSettings(), advance))
     examples = _images(data) if data.is_dir() else [_unlabelled(data)]
     return list(_label_images(model, examples, advance))

@@ -7,9 +7,8 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
-
 from roomgraph.app.clock import StageClock
+from roomgraph.app.rounding import rounded
 from roomgraph.app.run.frame_history import FrameHistory
 from roomgraph.datasets.floor_plan import FILE_NAME, FloorPlanTruth, read_floor_plan
 from roomgraph.datasets.places import PlaceTruth
@@ -82,7 +81,7 @@ def run_metrics(
         metrics |= place_metrics(graph, frames, sequence.places)
         before = list(zip(stamps, history.online, strict=True))
         online = evaluate_frames(before, sequence.places).overall
-        metrics["place_accuracy_per_frame_online"] = _rounded(online)
+        metrics["place_accuracy_per_frame_online"] = rounded(online)
         plan = sequence.root / FILE_NAME
         if plan.is_file():
             metrics |= topology_metrics(graph, read_floor_plan(plan), metrics["rooms_matched"])
@@ -96,12 +95,12 @@ def topology_metrics(
     places, errors = evaluate_rooms(graph, truth.areas_m2, matches)
     doorways = evaluate_doorways(graph, truth.doorways, matches)
     return {
-        "place_precision": _rounded(places.precision),
-        "place_recall": _rounded(places.recall),
-        "doorway_precision": _rounded(doorways.precision),
-        "doorway_recall": _rounded(doorways.recall),
-        "area_error": {room: _rounded(error) for room, error in errors.items()},
-        "area_error_max": _rounded(largest_error(errors)),
+        "place_precision": rounded(places.precision),
+        "place_recall": rounded(places.recall),
+        "doorway_precision": rounded(doorways.precision),
+        "doorway_recall": rounded(doorways.recall),
+        "area_error": {room: rounded(error) for room, error in errors.items()},
+        "area_error_max": rounded(largest_error(errors)),
     }
 
 
@@ -138,17 +137,13 @@ def place_metrics(
     nodes, per_frame = evaluate_nodes(graph, truth), evaluate_frames(frames, truth)
     instances = evaluate_instances(graph, truth)
     return {
-        "place_accuracy": _rounded(nodes.overall),
-        "place_accuracy_per_frame": _rounded(per_frame.overall),
+        "place_accuracy": rounded(nodes.overall),
+        "place_accuracy_per_frame": rounded(per_frame.overall),
         "place_accuracy_by_label": {
-            name: _rounded(value) for name, value in per_frame.per_label.items()
+            name: rounded(value) for name, value in per_frame.per_label.items()
         },
         "rooms": list(instances.rooms),
         "rooms_recovered": list(instances.recovered),
         "rooms_matched": instances.matches,
-        "place_purity": _rounded(instances.purity),
+        "place_purity": rounded(instances.purity),
     }
-
-
-def _rounded(value: float) -> float | None:
-    return round(value, 4) if np.isfinite(value) else None

@@ -34,30 +34,8 @@ class InputOptions(Settings):
         DatasetError
             `dataset` names no layout, the sequence cannot be opened, or no frame is left of it.
         """
-        return open_input(
-            self.sequence, self.dataset, camera=self.camera, depth_scale=self.depth_scale,
-            start=self.start, frames=self.frames, stride=self.stride,
-        )  # fmt: skip
-
-
-def open_input(
-    root: Path,
-    dataset: str | None = None,
-    camera: Path | None = None,
-    depth_scale: float | None = None,
-    start: int = 0,
-    frames: int | None = None,
-    stride: int = 1,
-) -> Sequence:
-    """Open a sequence as the flags say.
-
-    Raises
-    ------
-    DatasetError
-        `dataset` names no layout, the sequence cannot be opened, or no frame is left of it.
-    """
-    sequence = open_sequence(root, dataset, camera, depth_scale)
-    return select(sequence, start, frames, stride)
+        whole = open_sequence(self.sequence, self.dataset, self.camera, self.depth_scale)
+        return select(whole, self.start, self.frames, self.stride)
 
 
 def write_input(path: Path, options: InputOptions) -> None:

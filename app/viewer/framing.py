@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from roomgraph.datasets.vectors import unit
+
 FloatArray = NDArray[np.float64]
 
 # Of the eye above the horizon: rooms are seen from above, walls still stand.
@@ -65,12 +67,11 @@ def level_axes(T_world_camera: FloatArray) -> Axes:
     upright axis of the images decides.
     """
     x, y = T_world_camera[:, :3, 0], T_world_camera[:, :3, 1].mean(axis=0)
-    y = y / max(float(np.linalg.norm(y)), 1e-9)
+    y = unit(y)
     spread = x.T @ x / len(x) + 0.01 * (np.eye(3) - np.outer(y, y))
     up = np.linalg.eigh(spread)[1][:, 0]
     up = up if up @ y < 0 else -up
-    first = x[0] - (x[0] @ up) * up
-    right = first / np.linalg.norm(first)
+    right = unit(x[0] - (x[0] @ up) * up)
     return Axes(right, np.cross(up, right), up)
 
 

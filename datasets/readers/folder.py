@@ -7,11 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
-from roomgraph.datasets.camera import Camera, read_camera
+from roomgraph.datasets.camera import Camera
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.readers.images import IMAGE_SUFFIXES
-from roomgraph.datasets.readers.recorded import RecordedSequence, places_beside
-from roomgraph.datasets.trajectory import Trajectory, read_tum
+from roomgraph.datasets.readers.recorded import (
+    RecordedSequence,
+    camera_beside,
+    places_beside,
+    truth_beside,
+    unpaired_notes,
+)
 
 COLOUR_NAMES = ("color", "colour", "rgb", "image", "images")
 DEPTH_NAMES = ("depth",)
@@ -59,16 +64,12 @@ class FolderReader:
             )  # fmt: skip
         camera = camera or _camera_of(root)
         stamps = _stamps([stem for stem, _, _ in pairs])
-        dropped = len(colour) - len(pairs), len(depth) - len(pairs)
         notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units a metre"]
-        if any(dropped):
-            notes.append(
-                f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner"
-            )
+        notes += unpaired_notes(len(colour) - len(pairs), len(depth) - len(pairs))
         return RecordedSequence(
             name=root.resolve().name, root=root, camera=camera, stamps=stamps,
             colour_files=tuple(c for _, c, _ in pairs), depth_files=tuple(d for _, _, d in pairs),
-            ground_truth=_ground_truth(root), places=places_beside(root), notes=tuple(notes),
+            ground_truth=truth_beside(root), places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip
 
 
@@ -101,15 +102,10 @@ def _stamps(stems: list[str]) -> np.ndarray:
 
 
 def _camera_of(root: Path) -> Camera:
-    for name in CAMERA_NAMES:
-        if (root / name).exists():
-            return read_camera(root / name)
-    raise DatasetError(
-        "camera unknown", where=root, expected=f"{CAMERA_NAMES[0]} beside the images",
-        hint="name one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
-    )  # fmt: skip
-
-
-def _ground_truth(root: Path) -> Trajectory | None:
-    path = root / "groundtruth.txt"
-    return read_tum(path) if path.exists() else None
+    camera = camera_beside(root, CAMERA_NAMES)
+    if camera is None:
+        raise DatasetError(
+            "camera unknown", where=root, expected=f"{CAMERA_NAMES[0]} beside the images",
+            hint="name one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
+        )  # fmt: skip
+    return camera

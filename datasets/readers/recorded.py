@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.datasets.camera import Camera
+from roomgraph.datasets.camera import Camera, read_camera
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.places import PlaceTruth, read_places
 from roomgraph.datasets.readers.images import check_size, read_colour, read_depth
 from roomgraph.datasets.readers.registration import rectify
-from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.datasets.trajectory import Trajectory, read_tum
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,27 @@ class RecordedSequence:
     def with_notes(self, *notes: str) -> RecordedSequence:
         """Return the same files, with more notes."""
         return replace(self, notes=(*self.notes, *notes))
+
+
+def camera_beside(root: Path, names: tuple[str, ...] = ("camera.json",)) -> Camera | None:
+    """Read the first of these camera files that the folder has."""
+    for name in names:
+        if (root / name).exists():
+            return read_camera(root / name)
+    return None
+
+
+def truth_beside(root: Path) -> Trajectory | None:
+    """Read ``groundtruth.txt`` where the folder has one."""
+    path = root / "groundtruth.txt"
+    return read_tum(path) if path.exists() else None
+
+
+def unpaired_notes(colour: int, depth: int) -> list[str]:
+    """Return a note on how many images of each kind have no partner; none where all have one."""
+    if not colour and not depth:
+        return []
+    return [f"dropped {colour} colour and {depth} depth images without partner"]
 
 
 def places_beside(root: Path) -> PlaceTruth | None:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from roomgraph.datasets.camera import Camera, Intrinsics, read_camera
+from roomgraph.datasets.camera import Camera, Intrinsics
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.readers.images import read_colour
-from roomgraph.datasets.readers.recorded import RecordedSequence, places_beside
+from roomgraph.datasets.readers.recorded import RecordedSequence, camera_beside, places_beside
 from roomgraph.datasets.trajectory import Trajectory
 
 FRAME_RATE_HZ = 30.0
@@ -50,7 +50,7 @@ class SevenScenesReader:
                 expected="frame-XXXXXX.color.png|jpg with frame-XXXXXX.depth.png",
                 got=f"{len(stems)} colour images, none with depth",
             )  # fmt: skip
-        camera = camera or _camera_of(root, colour[0])
+        camera = camera or camera_beside(root) or _camera_of(root, colour[0])
         stamps = np.array([_number(stem) for stem in whole]) / FRAME_RATE_HZ
         notes = [
             f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units a metre, "
@@ -91,8 +91,6 @@ def _read_poses(root: Path, stems: list[str], stamps: np.ndarray) -> Trajectory 
 
 
 def _camera_of(root: Path, first_colour: Path) -> Camera:
-    if (root / "camera.json").exists():
-        return read_camera(root / "camera.json")
     height, width = read_colour(first_colour).shape[:2]
     path = root / "camera-intrinsics.txt"
     if not path.exists() and (width, height) != (640, 480):

@@ -7,12 +7,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.datasets.camera import Camera, read_camera, tum_camera
+from roomgraph.datasets.camera import Camera, tum_camera
 from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.readers.association import MAX_DIFFERENCE_S, associate, typical_offset
 from roomgraph.datasets.readers.images import read_colour
-from roomgraph.datasets.readers.recorded import RecordedSequence, places_beside
-from roomgraph.datasets.trajectory import read_tum
+from roomgraph.datasets.readers.recorded import (
+    RecordedSequence,
+    camera_beside,
+    places_beside,
+    truth_beside,
+    unpaired_notes,
+)
 
 
 class TumReader:
@@ -38,8 +43,7 @@ class TumReader:
             notes = [f"{len(stamps)} pairs from associations.txt"]
         else:
             stamps, colour, depth, notes = _associate(root)
-        camera = camera or _camera_of(root, colour[0])
-        truth = root / "groundtruth.txt"
+        camera = camera or camera_beside(root) or _published_camera(root, colour[0])
         intrinsics = camera.intrinsics
         notes.append(
             f"camera {intrinsics.width}x{intrinsics.height}, fx {intrinsics.fx:g}, "
@@ -48,7 +52,7 @@ class TumReader:
         return RecordedSequence(
             name=root.resolve().name, root=root, camera=camera, stamps=stamps,
             colour_files=tuple(colour), depth_files=tuple(depth),
-            ground_truth=read_tum(truth) if truth.exists() else None,
+            ground_truth=truth_beside(root),
             places=places_beside(root), notes=tuple(notes),
         )  # fmt: skip
 
@@ -66,9 +70,7 @@ def _associate(root: Path) -> tuple[NDArray[np.float64], list[Path], list[Path],
             "take that from those in depth.txt",
         )  # fmt: skip
     notes = [f"{len(pairs)} colour images with depth within {MAX_DIFFERENCE_S} s"]
-    unpaired = len(colour) - len(pairs), len(depth) - len(pairs)
-    if any(unpaired):
-        notes.append(f"dropped {unpaired[0]} colour and {unpaired[1]} depth images without partner")
+    notes += unpaired_notes(len(colour) - len(pairs), len(depth) - len(pairs))
     return (
         colour_s[pairs[:, 0]],
         [colour[i] for i in pairs[:, 0]],
@@ -124,10 +126,8 @@ def _is_number(word: str) -> bool:
         return False
 
 
-def _camera_of(root: Path, first_colour: Path) -> Camera:
-    """Return the camera beside the sequence, or the published one, fitted to the image's size."""
-    if (root / "camera.json").exists():
-        return read_camera(root / "camera.json")
+def _published_camera(root: Path, first_colour: Path) -> Camera:
+    """Return the camera that the benchmark gives, if the images have its size."""
     camera = tum_camera(root.resolve().name)
     height, width = read_colour(first_colour).shape[:2]
     if (width, height) != (camera.intrinsics.width, camera.intrinsics.height):

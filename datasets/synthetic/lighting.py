@@ -13,6 +13,7 @@ from roomgraph.datasets.synthetic.atlas import pack
 from roomgraph.datasets.synthetic.mesh import Quad
 from roomgraph.datasets.synthetic.raycast import Scene
 from roomgraph.datasets.synthetic.settings import Light
+from roomgraph.datasets.vectors import unit
 
 FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
@@ -92,8 +93,7 @@ def _sample_points(
     points, normals, pixels = [], [], []
     for quad, (columns, rows), place in zip(quads, sizes, places, strict=True):
         c = quad.corners
-        normal = np.cross(c[3] - c[0], c[1] - c[0])
-        normal /= max(float(np.linalg.norm(normal)), 1e-12)
+        normal = unit(np.cross(c[3] - c[0], c[1] - c[0]))
         u, v = np.meshgrid(np.linspace(0.02, 0.98, columns), np.linspace(0.02, 0.98, rows))
         u, v = u.reshape(-1, 1), v.reshape(-1, 1)
         where = (1 - u) * ((1 - v) * c[0] + v * c[3]) + u * ((1 - v) * c[1] + v * c[2])

@@ -15,6 +15,7 @@ from roomgraph.datasets.synthetic.building import Building
 from roomgraph.datasets.synthetic.layout import Rectangle, Room
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.trajectory import Trajectory
+from roomgraph.datasets.vectors import arc_lengths
 
 FloatArray = NDArray[np.float64]
 Point = tuple[float, float]
@@ -98,7 +99,7 @@ def find_way(building: Building) -> Way:
     knots = np.arange(-3, count + 4, dtype=np.float64)
     spline = BSpline(knots, np.concatenate([controls, controls[:3]]), 3, extrapolate=False)
     fine = spline(np.linspace(0, count, count * 80, endpoint=True) * (1 - 1e-12))
-    arc = np.append(0, np.cumsum(np.linalg.norm(np.diff(fine, axis=0), axis=1)))
+    arc = arc_lengths(fine)
     samples = np.linspace(0, arc[-1], int(arc[-1] / SAMPLE_M))
     xy = np.column_stack([np.interp(samples, arc, fine[:, axis]) for axis in (0, 1)])
     xy[-1] = xy[0]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.datasets.settings import Settings
+from roomgraph.datasets.vectors import unit
 from roomgraph.slam.features.extraction import Features, FeatureSettings
 
 Image = NDArray[np.uint8]
@@ -160,9 +161,3 @@ def vectors_of(
 
     with ThreadPoolExecutor(threads) as pool:
         return list(pool.map(vector, prepared))
-
-
-def unit(vector: NDArray[Any]) -> NDArray[np.float64]:
-    """Return a vector (D,) at unit length; zeros stay zeros."""
-    length = float(np.linalg.norm(vector))
-    return np.asarray(vector / length if length > 0 else vector, dtype=np.float64)

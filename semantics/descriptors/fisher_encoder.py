@@ -8,6 +8,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.datasets.vectors import unit
 from roomgraph.semantics.descriptors.dense import DenseDescriptors, DenseSettings
 from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 
@@ -94,7 +95,7 @@ class FisherEncoder:
         by_width /= self.arrays["variances"] * root_weight * np.float32(np.sqrt(2))
         vector = np.concatenate([by_mean.ravel(), by_width.ravel()])
         vector = np.sign(vector) * np.sqrt(np.abs(vector))
-        return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-12), dtype=np.float32)
+        return unit(vector).astype(np.float32)
 
     def posteriors(self, points: FloatArray) -> FloatArray:
         """Return how much each of the projected descriptors (N, D + 2) belongs to each word."""

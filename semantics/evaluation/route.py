@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.datasets.vectors import arc_lengths
 from roomgraph.semantics.evaluation.splits import SplitResult
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
@@ -59,8 +60,7 @@ def route_results(
 
 def nodes_along(positions: NDArray[np.float64]) -> NDArray[np.intp]:
     """Return the frames (M,) at which another metre has been travelled, the first among them."""
-    steps = np.linalg.norm(np.diff(positions, axis=0), axis=1)
-    metres = np.concatenate([[0.0], np.cumsum(steps)]) / NODE_M
+    metres = arc_lengths(positions) / NODE_M
     return np.asarray(np.unique(np.floor(metres + 1e-9), return_index=True)[1])
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from roomgraph.semantics.errors import SemanticsError
 from roomgraph.semantics.graph.belief import propagate
 from roomgraph.semantics.graph.graph import SemanticGraph
+from roomgraph.semantics.graph.instances import free_name
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.recognition.transitions import count_transitions
 
@@ -64,7 +65,7 @@ def correct(graph: SemanticGraph, place: str, label: str, change_m: float) -> Co
     labels = graph.labels.with_label(label)
     told = [node.id for node in graph.nodes if node.place == place]
     inferred = _neighbours(graph, labels, label, told, change_m)
-    name = _free_name(graph, place, label)
+    name = free_name(label, set(graph.places) - {place})
     label_id = labels.id_of(label)
     nodes = tuple(
         replace(node, label=label, label_id=label_id, place=name, score=1.0)
@@ -113,14 +114,6 @@ def _neighbours(
         for i in members
         if graph.nodes[i].id not in told
     }
-
-
-def _free_name(graph: SemanticGraph, place: str, label: str) -> str:
-    taken = {name for name in graph.places if name != place}
-    number = 1
-    while f"{label}{number}" in taken:
-        number += 1
-    return f"{label}{number}"
 
 
 def _renamed(doorway: Any, place: str, name: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -135,6 +135,14 @@ class PlaceNames:
             return _Stay(names[int(differences.argmin())], is_settled=False)
         self._count[label] += 1
         return _Stay(f"{label}{self._count[label]}", is_settled=True)
+
+
+def free_name(label: str, taken: Container[str]) -> str:
+    """Return the first name of a place of this label, ``office1`` and so on, that is not taken."""
+    number = 1
+    while f"{label}{number}" in taken:
+        number += 1
+    return f"{label}{number}"
 
 
 def _lengths(vectors: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.datasets.vectors import unit
 from roomgraph.semantics.classifiers.classifier import PlaceClassifier
-from roomgraph.semantics.descriptors.descriptor import Description, Image, ImageDescriptor, unit
+from roomgraph.semantics.descriptors.descriptor import Description, Image, ImageDescriptor
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
 from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.slam.features.extraction import Features, FeatureSettings

@@ -12,6 +12,7 @@ from scipy import ndimage
 
 from roomgraph.datasets import se3
 from roomgraph.semantics.graph.graph import UNLABELLED, GraphNode, RoomPolygon, SemanticGraph
+from roomgraph.semantics.graph.instances import free_name
 from roomgraph.semantics.labels import UNKNOWN
 from roomgraph.semantics.rooms.doorways import find_doorways
 from roomgraph.semantics.rooms.labelling import LabelledRegion, RoomSettings, Vote, label_rooms
@@ -146,9 +147,9 @@ def _placed(
 
 def _free_name(node: GraphNode, taken: set[str]) -> str:
     """Return a name for a node's place that no other place has, and note it as taken."""
-    name, number = node.place, 1
-    while name in taken and name != UNKNOWN:
-        name, number = f"{node.label}{number}", number + 1
+    name = node.place
+    if name in taken and name != UNKNOWN:
+        name = free_name(node.label, taken)
     taken.add(name)
     return name
 

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.settings import Settings
+from roomgraph.datasets.vectors import unit
 from roomgraph.slam.keyframe import Keyframe
 
 FloatArray = NDArray[np.float64]
@@ -108,7 +109,7 @@ def find_floor_plane(
     if not kept:
         return FloorPlane(se3.pose(R=[[0, 0, 1], [-1, 0, 0], [0, -1, 0]]), False, False, False)
     T = np.array([T_world_keyframe[k.id] for k in kept])
-    held = _unit(-T[:, :3, 1].mean(axis=0))
+    held = unit(-T[:, :3, 1].mean(axis=0))
     surfaces = _surfaces(kept, T_world_keyframe)
     level = _vertical(surfaces, held, settings)
     up = held if level is None else level
@@ -261,11 +262,7 @@ def _unit_across(direction: FloatArray, up: FloatArray) -> FloatArray:
     level = direction - (direction @ up) * up
     if np.linalg.norm(level) < 1e-6:
         return _across(up)[0]
-    return _unit(level)
-
-
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1e-12))
+    return unit(level)
 
 
 def _quarter(angles: FloatArray) -> FloatArray:

@@ -138,11 +138,7 @@ def _rack_side(site: Site, stand: Stand, length: float) -> None:
 def _beside_door(site: Site) -> None:
     """Hang the periodic table and warning signs beside the door."""
     rng, wall = site.rng, site.walls["door"]
-    gap = wall.gap or (0.0, 0.0, 0.0)
-    spans = sorted(
-        [(0.12, gap[0] - 0.12), (gap[1] + 0.12, wall.length - 0.12)], key=lambda s: s[0] - s[1]
-    )
-    (a, b), (c, d) = spans
+    (a, b), (c, d) = wall.beside_gap(0.12)
     width = min(1.3, b - a)
     table = Material(laboratory.periodic_table(rng, 240, int(300 * width)))
     wall.stand.picture((a, a + width), (1.0, 1.82), 0.012, table)

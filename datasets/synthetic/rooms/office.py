@@ -198,14 +198,11 @@ def _hang(site: Site, name: str, start: float, end: float) -> None:
 def _beside_door(site: Site) -> None:
     """Hang a poster and a pinboard on the door's wall, and stand a waste bin there."""
     rng, wall = site.rng, site.walls["door"]
-    gap = wall.gap or (0.0, 0.0, 0.0)
-    spans = sorted(
-        [(0.15, gap[0] - 0.15), (gap[1] + 0.15, wall.length - 0.15)], key=lambda s: s[0] - s[1]
-    )
-    width = min(1.0, spans[0][1] - spans[0][0])
+    (a, b), (c, _) = wall.beside_gap(0.15)
+    width = min(1.0, b - a)
     board = Material(office.pinboard(rng, 210, int(260 * width)))
-    wall.stand.picture((spans[0][0], spans[0][0] + width), (1.1, 1.9), 0.015, board)
+    wall.stand.picture((a, a + width), (1.1, 1.9), 0.015, board)
     poster = Material(ink.poster(rng, 220, 150))
-    wall.stand.picture((spans[1][0], spans[1][0] + 0.5), (1.1, 1.84), 0.012, poster)
-    corner = 0.16 if spans[0][0] < gap[0] else wall.length - 0.16
+    wall.stand.picture((c, c + 0.5), (1.1, 1.84), 0.012, poster)
+    corner = 0.16 if a < c else wall.length - 0.16
     wall.stand.prism((corner, 0.15), (0, 0.36), (0.09, 0.12), paint((60, 66, 74)))

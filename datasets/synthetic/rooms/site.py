@@ -38,6 +38,12 @@ class Wall:
     length: float
     gap: tuple[float, float, float] | None = None
 
+    def beside_gap(self, margin: float) -> list[tuple[float, float]]:
+        """Return the stretches on both sides of the doorway, less margins, the longer first."""
+        left, right, _ = self.gap or (0.0, 0.0, 0.0)
+        stretches = [(margin, left - margin), (right + margin, self.length - margin)]
+        return sorted(stretches, key=lambda s: s[0] - s[1])
+
 
 @dataclass(frozen=True, slots=True)
 class Site:
