@@ -106,6 +106,6 @@ def _camera_of(root: Path) -> Camera:
     if camera is None:
         raise DatasetError(
             "camera unknown", where=root, expected=f"{CAMERA_NAMES[0]} beside the images",
-            hint="name one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
+            hint="give one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
         )  # fmt: skip
     return camera

@@ -83,7 +83,7 @@ def unpaired_notes(colour: int, depth: int) -> list[str]:
     """Return a note on how many images of each kind have no partner; none where all have one."""
     if not colour and not depth:
         return []
-    return [f"dropped {colour} colour and {depth} depth images without partner"]
+    return [f"dropped {colour} colour and {depth} depth images without a partner"]
 
 
 def places_beside(root: Path) -> PlaceTruth | None:
