@@ -9,6 +9,8 @@ from roomgraph.app.cli.main import main
 from roomgraph.app.experiments.data import turned
 from tests.semantics.recognition.test_training import image
 
+pytestmark = pytest.mark.slow
+
 
 def roomgraph(monkeypatch, *arguments):
     monkeypatch.setattr(sys, "argv", ["roomgraph", *map(str, arguments)])

@@ -16,6 +16,8 @@ from roomgraph.datasets.synthetic.mesh import Material, Stand, Surfaces
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.synthetic.walk import CLEARANCE_M, clearance, find_way, walk
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(10)
 GREY = Material(np.full((4, 4, 3), 128, np.uint8))
 
