@@ -43,12 +43,12 @@ def replace_folder(fresh: Path, path: Path) -> None:
         os.sync()
     old = path.with_name(f".{path.name}.old.{os.getpid()}")
     if path.exists():
-        path.rename(old)
+        path.replace(old)
     try:
-        fresh.rename(path)
+        fresh.replace(path)
     except OSError:
         if old.exists():
-            old.rename(path)
+            old.replace(path)
         raise
     _flush_folder(path.parent)
     shutil.rmtree(old, ignore_errors=True)

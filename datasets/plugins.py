@@ -49,9 +49,17 @@ def known_name(name: str, classes: Mapping[str, Any]) -> str:
     return name
 
 
-def settings_by_name(title: str, classes: Mapping[str, Any]) -> type[Settings]:
-    """Return a settings model with a part for each class: its ``settings_class`` under its name."""
+def settings_by_name(title: str, module: str, classes: Mapping[str, Any]) -> type[Settings]:
+    """Return a settings model with a part for each class: its ``settings_class`` under its name.
+
+    Parameters
+    ----------
+    title, module : str
+        Name of the model, and of the module that keeps it: so other processes find it.
+    classes : mapping of str to class
+        As from `classes_by_name`.
+    """
     parts: dict[str, Any] = {
         name: (found.settings_class, found.settings_class()) for name, found in classes.items()
     }
-    return create_model(title, __base__=Settings, **parts)
+    return create_model(title, __base__=Settings, __module__=module, **parts)

@@ -13,6 +13,13 @@ from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 
 
+def pytest_collection_modifyitems(items):
+    """What looks at a rendered walk, or at a run of one, takes seconds."""
+    for item in items:
+        if "rendered_walk" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture
 def rng():
     return np.random.default_rng(7)

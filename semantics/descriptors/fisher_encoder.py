@@ -41,11 +41,17 @@ class FisherEncoder:
         ``mean`` (128,) and ``projection`` (128, D) on principal axes of equal variance,
         ``position_scale`` (2,), and the words' ``means`` and ``variances`` (K, D + 2) and
         ``weights`` (K,).
+
+    Raises
+    ------
+    ValueError
+        The arrays do not belong together.
     """
 
     def __init__(self, settings: DenseSettings, arrays: Mapping[str, NDArray[Any]]) -> None:
         self.settings = settings
         self.arrays = {name: np.asarray(arrays[name], dtype=np.float32) for name in ARRAYS}
+        self._check_shapes()
         self._prepare()
 
     @classmethod
@@ -104,6 +110,19 @@ class FisherEncoder:
     def project(self, image: DenseDescriptors) -> FloatArray:
         """Return descriptors with positions on the encoder's axes (N, D + 2)."""
         return _project(image, self.arrays)
+
+    def _check_shapes(self) -> None:
+        """Raise ValueError where the arrays do not belong together."""
+        (n_words,), length = self.arrays["weights"].shape[:1], self.arrays["mean"].shape[0]
+        n_axes = self.arrays["projection"].shape[-1]
+        shapes = {
+            "mean": (length,), "projection": (length, n_axes), "position_scale": (2,),
+            "means": (n_words, n_axes + 2), "variances": (n_words, n_axes + 2),
+            "weights": (n_words,),
+        }  # fmt: skip
+        for name, shape in shapes.items():
+            if self.arrays[name].shape != shape:
+                raise ValueError(f"{name} of shape {self.arrays[name].shape}, expected {shape}")
 
     def _prepare(self) -> None:
         means, variances = self.arrays["means"], self.arrays["variances"]

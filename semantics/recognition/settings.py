@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     DescriptorSettings = Settings
     ClassifierSettings = Settings
 else:
-    DescriptorSettings = settings_by_name("DescriptorSettings", DESCRIPTORS)
-    ClassifierSettings = settings_by_name("ClassifierSettings", CLASSIFIERS)
+    DescriptorSettings = settings_by_name("DescriptorSettings", __name__, DESCRIPTORS)
+    ClassifierSettings = settings_by_name("ClassifierSettings", __name__, CLASSIFIERS)
 
 
 class TrainingSettings(Settings):

@@ -40,6 +40,7 @@ def _page_faults(how: str) -> int:
 
 
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="a setting of glibc")
+@pytest.mark.slow
 def test_what_frames_took_is_not_fetched_again() -> None:
     whole = 10 * 256  # pages of a frame's images
     assert _page_faults("keep") < 4 * whole

@@ -66,6 +66,7 @@ def test_quiet_says_nothing(capsys, clock):
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.slow
 def test_rendering_into_a_file_tells_when_it_ended(tmp_path, monkeypatch, capsys, clock):
     flags = ("--frames", "2", "--width", "64", "--height", "48")
     assert roomgraph(monkeypatch, "synth", "-o", tmp_path / "floor", *flags) == 0

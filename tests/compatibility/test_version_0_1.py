@@ -19,6 +19,8 @@ from roomgraph.semantics.recognition.model_files import load_model, save_model
 from roomgraph.slam.features.extraction import FeatureExtractor
 from tests.app.command import roomgraph
 
+pytestmark = pytest.mark.slow
+
 FOLDER = Path(__file__).parent.parent / "fixtures" / "version_0_1"
 PREDICTIONS = json.loads((FOLDER / "predictions.json").read_text())
 

@@ -42,6 +42,24 @@ def test_a_folder_is_flushed_as_a_whole(tmp_path, events, monkeypatch):
     assert events == ["all", "is walk", "folder"]
 
 
+def test_a_folder_takes_the_place_of_an_old_one(tmp_path):
+    for name in ("new", "model"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "a.txt").write_text(name)
+    replace_folder(tmp_path / "new", tmp_path / "model")
+    assert [p.name for p in tmp_path.iterdir()] == ["model"]
+    assert (tmp_path / "model" / "a.txt").read_text() == "new"
+
+
+def test_an_old_folder_stays_where_the_new_one_cannot_be_put(tmp_path):
+    (tmp_path / "model").mkdir()
+    (tmp_path / "model" / "a.txt").write_text("old")
+    with pytest.raises(OSError, match="missing"):
+        replace_folder(tmp_path / "missing", tmp_path / "model")
+    assert [p.name for p in tmp_path.iterdir()] == ["model"]
+    assert (tmp_path / "model" / "a.txt").read_text() == "old"
+
+
 def test_a_system_that_flushes_no_folders_is_no_failure(tmp_path, monkeypatch):
     def refuse(name, flags):
         raise PermissionError(name)

@@ -11,6 +11,7 @@ from roomgraph.semantics.classifiers.linear_svm import LinearSvm
 from roomgraph.semantics.descriptors.neural_gas import NeuralGas
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "estimator", [NeuralGas(n_vectors=3, random_state=0), LinearSvm(random_state=0)]
 )

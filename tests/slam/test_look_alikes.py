@@ -21,6 +21,8 @@ from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
 
+pytestmark = pytest.mark.slow
+
 CAMERA = Intrinsics(320, 240, 262.0, 262.0, 159.5, 119.5)
 HEIGHT_M, BAY_M, BAYS = 2.4, 3.0, 5
 

@@ -111,6 +111,7 @@ def test_bench_prints_json_alone_and_writes_pictures(rendered_walk, tmp_path, mo
     assert "--overwrite" in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_bench_tells_what_cannot_be_opened_in_one_line(tmp_path, monkeypatch, capfd):
     assert roomgraph(monkeypatch, "bench", tmp_path / "nowhere", "--repeat", "1", "--quiet") == 1
     said = capfd.readouterr().err

@@ -17,6 +17,8 @@ from roomgraph.semantics.rooms.lookup import places_at
 from tests.app.command import roomgraph
 from tests.check_run import problems
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_run_is_whole_and_accurate(mapped):
     _, run = mapped

@@ -8,6 +8,8 @@ from roomgraph.app.experiments.data import turned
 from tests.app.command import roomgraph
 from tests.semantics.recognition.test_training import image
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def photos(tmp_path_factory):

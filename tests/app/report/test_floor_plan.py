@@ -10,6 +10,8 @@ from roomgraph.semantics.graph.graph import GraphNode, RoomPolygon, SemanticGrap
 from roomgraph.semantics.labels import LabelSpace
 from roomgraph.slam.reconstruction.occupancy_grid import OccupancyGrid
 
+pytestmark = pytest.mark.slow
+
 LABELS = LabelSpace.of(["office"])
 
 

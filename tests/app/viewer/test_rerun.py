@@ -34,6 +34,8 @@ from roomgraph.semantics.labels import LabelSpace
 from roomgraph.slam.reconstruction.point_map import PointMap
 from roomgraph.slam.tracking import Anchor, LoopClosure, Tracking, TrackingState
 
+pytestmark = pytest.mark.slow
+
 N_FRAMES, LOST = 12, 5
 CAMERA = Intrinsics(64, 48, 60.0, 60.0, 31.5, 23.5)
 LABELS = LabelSpace.of(["kitchen", "office"])

@@ -17,6 +17,8 @@ from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.synthetic.walk import find_way, walk
 from tests.datasets.synthetic.clearance import clearance
 
+pytestmark = pytest.mark.slow
+
 LABELS = {"corridor", "office", "laboratory", "kitchen", "bathroom", "elevator_area"}
 CLEARANCE_M = 0.45
 SEEDS = range(10)

@@ -13,6 +13,8 @@ from roomgraph.datasets.synthetic.sensor import FOCAL_BASELINE, NoiseBank, measu
 from roomgraph.datasets.synthetic.settings import LIGHTS, BuildingSettings
 from roomgraph.datasets.synthetic.walk import camera_poses, walk
 
+pytestmark = pytest.mark.slow
+
 SMALL = BuildingSettings(seed=1, width=160, height=120)
 
 

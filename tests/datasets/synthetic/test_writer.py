@@ -19,6 +19,8 @@ from roomgraph.datasets.synthetic.walk import walk
 from roomgraph.datasets.synthetic.writer import write_sequences
 from roomgraph.datasets.trajectory import read_tum
 
+pytestmark = pytest.mark.slow
+
 QUICK = BuildingSettings(seed=2, width=48, height=36, step_m=0.5, turn_deg=20)
 
 

@@ -128,6 +128,7 @@ def test_flat_images_have_no_vector(encoder):
     assert not encoder.encode(flat).any()
 
 
+@pytest.mark.slow
 def test_is_cheap():
     """An image of 640x480 by the default settings: 15 ms on a core that is a few years old."""
     rng = np.random.default_rng(0)

@@ -102,6 +102,7 @@ def test_unknown_parameter():
         NeuralGas().set_params(k=3)
 
 
+@pytest.mark.slow
 def test_prediction_does_not_import_sklearn():
     code = (
         "import sys, numpy as np; "

@@ -14,6 +14,8 @@ from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.semantics.recognition.training import train
 from roomgraph.slam.features.extraction import FeatureSettings
 
+pytestmark = pytest.mark.slow
+
 FEATURES = FeatureSettings(max_features=200)
 
 

@@ -21,6 +21,8 @@ from roomgraph.slam.reconstruction.occupancy_grid import occupancy
 from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings, carve
 from tests.slam.scene import NOISE, around, box_room, keyframes
 
+pytestmark = pytest.mark.slow
+
 LABELS = LabelSpace.of(["corridor", "kitchen", "office"])
 SETTINGS = RoomSettings()
 # Two offices on both sides of a corridor that one can see through, and walk through.

@@ -16,6 +16,8 @@ from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettin
 from tests.semantics.helpers import anchor, frame_label, label_space, view
 from tests.slam.scene import NOISE, around, box_room, keyframes
 
+pytestmark = pytest.mark.slow
+
 HEIGHT_M = 1.2
 # The offices share a wall; the second has two doors.
 CORRIDOR = box_room(0, 0, 8, 1.9, [("n", 1.0, 1.9), ("n", 4.4, 5.3), ("n", 6.7, 7.6)])

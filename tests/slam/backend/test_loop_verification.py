@@ -8,6 +8,8 @@ from roomgraph.slam.backend.alignment import Measured
 from roomgraph.slam.backend.loop_verification import LoopVerificationSettings, LoopVerifier
 from roomgraph.slam.backend.pose_graph import Constraint, PoseGraph, PoseGraphSettings
 
+pytestmark = pytest.mark.slow
+
 LAP = 128
 PIECE = 8  # keyframes
 STEP_M = 0.3

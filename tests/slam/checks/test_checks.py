@@ -21,6 +21,8 @@ from roomgraph.slam.checks.statistics import gain_error
 from roomgraph.slam.geometry.noise import SensorNoise
 from tests.slam.helpers import NOISE, correspondences
 
+pytestmark = pytest.mark.slow
+
 UNCERTAIN = SensorNoise(pixel=10, depth_floor_m=0.1, depth_quadratic=0.1)
 KINECT = Intrinsics(640, 480, 525.0, 525.0, 319.5, 239.5)
 MIDDLE, STRETCH = np.array([319.5, 239.5]), np.array([4 / 3, 1.0])

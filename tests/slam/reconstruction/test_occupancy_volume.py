@@ -10,6 +10,8 @@ from roomgraph.slam.reconstruction.occupancy_grid import FREE, OCCUPIED, UNKNOWN
 from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolumeSettings, carve
 from tests.slam.scene import NOISE, around, box_room, camera, keyframes
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = OccupancyVolumeSettings()
 LEVEL = FloorPlane(np.eye(4), True, True, True)
 
