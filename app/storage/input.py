@@ -19,12 +19,12 @@ class InputOptions(Settings):
     """A sequence and how it is opened: what the flags of `roomgraph run` say."""
 
     sequence: Path = Field(description="folder of the sequence")
-    dataset: str | None = Field(None, description="layout; guessed if left out")
-    camera: Path | None = Field(None, description="camera file in place of the sequence's own")
-    depth_scale: float | None = Field(None, gt=0, description="raw depth units a metre")
-    start: int = Field(0, ge=0, description="first frame")
-    frames: int | None = Field(None, ge=1, description="frames at most")
-    stride: int = Field(1, ge=1, description="every n-th frame")
+    dataset: str | None = Field(None, description="layout of the dataset; detected if left out")
+    camera: Path | None = Field(None, description="camera file that replaces the sequence's own")
+    depth_scale: float | None = Field(None, gt=0, description="raw depth units per metre")
+    start: int = Field(0, ge=0, description="number of the first frame")
+    frames: int | None = Field(None, ge=1, description="maximum number of frames")
+    stride: int = Field(1, ge=1, description="every n-th frame is used")
 
     def open(self) -> Sequence:
         """Open the sequence.

@@ -29,13 +29,15 @@ class TopologySettings(Settings):
     """When nodes are dropped and joined."""
 
     node_distance_m: float = Field(
-        1.0, gt=0, description="metres travelled between nodes (paper: d = 1)"
+        1.0, gt=0, description="distance travelled between nodes (paper: d = 1), metres"
     )
     revisit_radius_m: float = Field(
-        0.6, ge=0, description="a node this near to an older one is joined to it"
+        0.6,
+        ge=0,
+        description="maximum distance between a node and an older one to join them, metres",
     )
     revisit_gap: int = Field(
-        5, ge=2, description="nodes that have to lie between the two along the path"
+        5, ge=2, description="minimum number of nodes between the two along the path"
     )
     instances: InstanceSettings = InstanceSettings()
 

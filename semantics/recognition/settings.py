@@ -29,16 +29,20 @@ class TrainingSettings(Settings):
     classifier: str = Field("linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
     stride: int = Field(1, ge=1, description="every n-th image of each label is used")
     max_images_per_label: int = Field(
-        200, ge=2, description="maximum number of images of a label, evenly spread"
+        200, ge=2, description="maximum number of images of each label, evenly spread"
     )
-    threads: int = Field(2, ge=1, le=64, description="images read and described at once")
+    threads: int = Field(
+        2, ge=1, le=64, description="number of images read and described in parallel"
+    )
     reject: float = Field(
         0.01, ge=0, lt=1,
-        description="share of held-out images that may be called unknown to keep novel ones out",
+        description="share of held-out images that may be labelled unknown so that novel places "
+        "are rejected",
     )  # fmt: skip
     exemplars: int = Field(
         100, ge=0,
-        description="images of each label kept in the model, so that it can learn others later",
+        description="number of images of each label kept in the model, so that it can learn other"
+        " labels later",
     )  # fmt: skip
     descriptors: DescriptorSettings = DescriptorSettings()
     classifiers: ClassifierSettings = ClassifierSettings()

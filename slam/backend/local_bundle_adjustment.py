@@ -23,13 +23,24 @@ Poses = Mapping[int, FloatArray]
 class LocalBundleAdjustmentSettings(Settings):
     """How many keyframes are adjusted together."""
 
-    enabled: bool = Field(True, description="adjust keyframes and landmarks together (bundles)")
-    size: int = Field(8, ge=2, le=50, description="latest keyframes that may move")
-    held: int = Field(6, ge=1, le=50, description="older ones that see the same, held")
-    landmarks: int = Field(
-        800, ge=50, description="landmarks adjusted, about: those that most keyframes see"
+    enabled: bool = Field(
+        True, description="adjust keyframes and landmarks together (local bundle adjustment)"
     )
-    min_shared: int = Field(15, ge=6, description="landmarks shared with the others, at least")
+    size: int = Field(
+        8, ge=2, le=50, description="maximum number of latest keyframes that are adjusted"
+    )
+    held: int = Field(
+        6, ge=1, le=50, description="maximum number of covisible older keyframes, held fixed"
+    )
+    landmarks: int = Field(
+        800,
+        ge=50,
+        description="approximate number of landmarks adjusted; those seen by most keyframes are "
+        "chosen",
+    )
+    min_shared: int = Field(
+        15, ge=6, description="minimum number of landmarks that a keyframe shares with the others"
+    )
 
 
 class LocalBundleAdjustment:

@@ -22,26 +22,44 @@ FloatArray = NDArray[np.float64]
 class LoopSettings(Settings):
     """When two keyframes are tried, and when they close a loop."""
 
-    enabled: bool = Field(True, description="look for loops")
+    enabled: bool = Field(True, description="search for loop closures")
     min_way_m: float = Field(
         0.0,
         ge=0,
         le=1000,
-        description="way along constraints in between, at least: nearer ones gain little",
+        description="minimum path length along constraints between two keyframes for a loop, "
+        "metres",
     )
-    candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
-    neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
+    candidates: int = Field(
+        2, ge=0, description="maximum number of candidates by appearance, for each keyframe"
+    )
+    neighbours: int = Field(
+        2, ge=0, description="maximum number of candidates by position, for each keyframe"
+    )
     min_similarity: float = Field(
-        0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
+        0.3,
+        ge=0,
+        description="minimum similarity, as a share of that to the previous keyframe, for a "
+        "keyframe to be tried",
     )
-    max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
-    max_angle_deg: float = Field(45.0, gt=0, le=180, description="and axes up to this apart")
-    min_inliers: int = Field(30, ge=10, description="matches that must agree")
+    max_distance_m: float = Field(
+        2.0, gt=0, description="maximum distance of a candidate by position, metres"
+    )
+    max_angle_deg: float = Field(
+        45.0,
+        gt=0,
+        le=180,
+        description="maximum angle between optical axes for a candidate by position, degrees",
+    )
+    min_inliers: int = Field(30, ge=10, description="minimum number of inlier matches")
     min_agreement: float = Field(
-        0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
+        0.7, ge=0, le=1, description="minimum share of points in both views whose depth agrees"
     )
     min_correlation: float = Field(
-        0.7, ge=-1, le=1, description="of the grey levels of the surface that both show, at least"
+        0.7,
+        ge=-1,
+        le=1,
+        description="minimum correlation of grey levels on the surface that both views show",
     )
     verification: LoopVerificationSettings = LoopVerificationSettings()
 

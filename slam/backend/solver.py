@@ -25,25 +25,38 @@ class PoseGraphSettings(Settings):
     """How constraints between keyframes are weighed, and which are thrown out again."""
 
     kernel: Literal["huber", "cauchy", "none"] = Field(
-        "huber", description="robust kernel on every constraint"
+        "huber", description="robust kernel of every constraint"
     )
-    kernel_width: float = Field(3.0, gt=0, le=100, description="in standard deviations")
+    kernel_width: float = Field(
+        3.0, gt=0, le=100, description="width of the robust kernel, standard deviations"
+    )
     sigma_rotation_rad: float = Field(
-        0.001, gt=0, le=1, description="error of a constraint beyond what its matches say, radians"
+        0.001,
+        gt=0,
+        le=1,
+        description="rotation error added to that estimated from a constraint's matches, radians",
     )
     sigma_translation_m: float = Field(
-        0.002, gt=0, le=1, description="error of a constraint beyond what its matches say, metres"
+        0.002,
+        gt=0,
+        le=1,
+        description="translation error added to that estimated from a constraint's matches, metres",
     )
     reject_width: float = Field(
         10.0,
         gt=0,
         le=1000,
-        description="a loop is rejected that stays this far from the optimum, "
-        "in standard deviations",
+        description="loops with a larger residual after optimisation are rejected, standard "
+        "deviations",
     )
-    iterations: int = Field(10, ge=1, le=100, description="of the solver after a loop, at most")
+    iterations: int = Field(
+        10, ge=1, le=100, description="maximum number of solver iterations after a loop closure"
+    )
     converged_m: float = Field(
-        1e-4, gt=0, le=0.1, description="iterations end when no keyframe moves further, metres"
+        1e-4,
+        gt=0,
+        le=0.1,
+        description="the solver stops when no keyframe moves further than this, metres",
     )
 
 

@@ -45,8 +45,10 @@ class CheckSettings(Settings):
         description="correct the camera where the images show how: align the depth images to the "
         "colour images, replace focal lengths that do not fit the images",
     )
-    windows: int = Field(10, ge=1, le=100, description="windows of successive frames checked")
-    window: int = Field(8, ge=1, le=100, description="frames in each window")
+    windows: int = Field(
+        10, ge=1, le=100, description="number of windows of successive frames that are checked"
+    )
+    window: int = Field(8, ge=1, le=100, description="number of frames in each window")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
     calibration: CalibrationSettings = CalibrationSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()

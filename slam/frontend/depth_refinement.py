@@ -22,13 +22,19 @@ FloatArray = NDArray[np.float64]
 class DepthRefinementSettings(Settings):
     """When a pose by features is improved on depth."""
 
-    enabled: bool = Field(True, description="improve poses from little texture on the surfaces")
-    inliers: int = Field(100, ge=0, description="poses on at least so many features stand alone")
-    columns: int = Field(80, ge=8, le=2000, description="columns of the depth that take part")
-    max_surface_m: float = Field(
-        0.05, gt=0, le=1, description="surface points further apart are not paired"
+    enabled: bool = Field(
+        True, description="refine poses from few features by aligning depth surfaces"
     )
-    iterations: int = Field(4, ge=1, le=100, description="at most")
+    inliers: int = Field(
+        100, ge=0, description="poses with at least this many feature inliers are not refined"
+    )
+    columns: int = Field(
+        80, ge=8, le=2000, description="number of columns of the depth image that are used"
+    )
+    max_surface_m: float = Field(
+        0.05, gt=0, le=1, description="maximum distance between paired surface points, metres"
+    )
+    iterations: int = Field(4, ge=1, le=100, description="maximum number of iterations")
 
 
 class DepthRefiner:

@@ -20,21 +20,25 @@ ALIKE = 0.1
 class PredictionSettings(Settings):
     """How steadily a camera in a hand, or on a robot, moves."""
 
-    enabled: bool = Field(True, description="let the motion so far hold what a view leaves open")
+    enabled: bool = Field(
+        True,
+        description="use a constant-velocity model in directions that a view does not constrain",
+    )
     acceleration_m_s2: float = Field(
-        5.0, gt=0, le=1000, description="usual acceleration of the camera"
+        5.0, gt=0, le=1000, description="typical acceleration of the camera, m/s²"
     )
     acceleration_rad_s2: float = Field(
-        30.0, gt=0, le=10000, description="usual angular acceleration of the camera"
+        30.0, gt=0, le=10000, description="typical angular acceleration of the camera, rad/s²"
     )
     memory: float = Field(
-        0.9, ge=0, lt=1, description="weight of the errors so far when a new one comes in"
+        0.9,
+        ge=0,
+        lt=1,
+        description="weight of the past prediction errors when a new one is averaged in",
     )
-    caution: float = Field(
-        3.0, ge=1, le=100, description="predictions are taken to err so many times as they did"
-    )
+    caution: float = Field(3.0, ge=1, le=100, description="factor on the past prediction errors")
     longest: float = Field(
-        5.0, ge=1, le=100, description="motion is carried on over at most so many of its own steps"
+        5.0, ge=1, le=100, description="maximum extrapolation, as a multiple of the last time step"
     )
 
 

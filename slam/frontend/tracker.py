@@ -22,19 +22,34 @@ FloatArray = NDArray[np.float64]
 class TrackerSettings(Settings):
     """How views are matched to the points around."""
 
-    ratio: float = Field(0.8, gt=0, lt=1, description="ratio test between nearest descriptors")
+    ratio: float = Field(
+        0.8,
+        gt=0,
+        lt=1,
+        description="maximum ratio of the nearest to the second nearest descriptor distance "
+        "(ratio test)",
+    )
     search_share: float = Field(
-        0.06, gt=0, le=1, description="search radius around predictions, of the image's width"
+        0.06,
+        gt=0,
+        le=1,
+        description="search radius around predicted positions, as a share of the image's width",
     )
     guided_inliers: int = Field(
-        40, ge=6, description="fewer from guided matching, and all features are matched anew"
+        40,
+        ge=6,
+        description="with fewer inliers from guided matching, all features are matched again",
     )
     guided_share: float = Field(
-        0.5, gt=0, le=1, description="of guided matches that must agree; if fewer, RANSAC decides"
+        0.5,
+        gt=0,
+        le=1,
+        description="minimum share of inliers among guided matches; below it, RANSAC estimates "
+        "the pose",
     )
-    min_inliers: int = Field(15, ge=6, description="fewer agreeing matches are no pose")
+    min_inliers: int = Field(15, ge=6, description="minimum number of inlier matches for a pose")
     min_share: float = Field(
-        0.15, ge=0, le=1, description="of matches that must agree with a pose at least"
+        0.15, ge=0, le=1, description="minimum share of inliers among the matches for a pose"
     )
 
 

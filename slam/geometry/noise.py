@@ -16,10 +16,16 @@ class SensorNoise(Settings):
     defaults are of the size that Nguyen et al. (2012) measured for the Kinect.
     """
 
-    pixel: float = Field(1.0, gt=0, le=10, description="position of a feature, pixels")
-    depth_floor_m: float = Field(0.003, gt=0, le=0.1, description="depth error close by, metres")
+    pixel: float = Field(1.0, gt=0, le=10, description="error of a feature's position, pixels")
+    depth_floor_m: float = Field(
+        0.003, gt=0, le=0.1, description="depth error at short range, metres"
+    )
     depth_quadratic: float = Field(
-        0.0025, ge=0, le=0.1, description="depth error added for each square metre of depth"
+        0.0025,
+        ge=0,
+        le=0.1,
+        description="depth error in metres added per square metre of depth (it grows with the "
+        "depth squared)",
     )
 
     @property

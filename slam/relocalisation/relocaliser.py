@@ -26,11 +26,15 @@ FloatArray = NDArray[np.float64]
 class RelocaliserSettings(Settings):
     """How keyframes are proposed and believed."""
 
-    candidates: int = Field(6, ge=1, le=100, description="keyframes tried, the most alike first")
-    neighbours: int = Field(3, ge=0, le=50, description="keyframes joined to a candidate")
-    min_inliers: int = Field(30, ge=6, description="fewer agreeing matches are no pose")
+    candidates: int = Field(
+        6, ge=1, le=100, description="maximum number of keyframes tried, the most similar first"
+    )
+    neighbours: int = Field(
+        3, ge=0, le=50, description="number of neighbouring keyframes added to a candidate"
+    )
+    min_inliers: int = Field(30, ge=6, description="minimum number of inlier matches for a pose")
     enough_inliers: int = Field(
-        120, ge=6, description="with so many agreeing matches no other candidate is tried"
+        120, ge=6, description="number of inlier matches after which no other candidate is tried"
     )
 
 

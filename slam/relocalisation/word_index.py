@@ -17,11 +17,15 @@ from roomgraph.slam.features.matching import squared_distances
 class WordIndexSettings(Settings):
     """How words are made of descriptors."""
 
-    max_words: int = Field(4096, ge=16, description="words at most")
+    max_words: int = Field(4096, ge=16, description="maximum number of visual words")
     radius: float = Field(
-        0.55, gt=0, le=2, description="a descriptor this far from all words, in norms, is a new one"
+        0.55,
+        gt=0,
+        le=2,
+        description="a descriptor further than this from all words becomes a new word, as a share"
+        " of its norm",
     )
-    features: int = Field(300, ge=20, description="features of a keyframe that are indexed")
+    features: int = Field(300, ge=20, description="number of features indexed per keyframe")
 
 
 class WordIndex:
