@@ -1,4 +1,4 @@
-"""All settings: order flag > TOML file > default."""
+"""All settings. A flag overrides the TOML file, which overrides the default."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from roomgraph.slam.settings import SlamSettings
 
 
 class RecordingSettings(Settings):
-    """What is written on the way."""
+    """What is written and drawn during a run."""
 
     map_every: int = Field(
         16,
@@ -79,7 +79,7 @@ class ViewerSettings(Settings):
 
 
 class AppSettings(Settings):
-    """Everything that can be set for a run."""
+    """All settings of a run."""
 
     seed: int = Field(0, ge=0, description="seed of all random choices")
     slam: SlamSettings = SlamSettings()
@@ -94,7 +94,7 @@ def load_settings(
     flags: Mapping[str, Any] | None = None,
     only: Collection[str] | None = None,
 ) -> AppSettings:
-    """Return the settings of a TOML file under those given as flags.
+    """Return the settings of a TOML file, overridden by flags.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def load_settings(
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise AppError(
                 "settings cannot be read", where=path, expected="a TOML file", got=str(error),
-                hint="`roomgraph config` prints one to start from",
+                hint="`roomgraph config` prints a valid file",
             ) from error  # fmt: skip
     if only is not None:
         values = _chosen(values, only)
@@ -136,17 +136,17 @@ def load_settings(
                 expected=_likely(first["loc"]), got=name, hint=hint,
             ) from error  # fmt: skip
         raise AppError(
-            f"setting {name} is not allowed", where=path or "command line",
+            f"invalid value of setting {name}", where=path or "command line",
             expected=first["msg"].removeprefix("Input should be "),
             got=repr(first.get("input"))[:80], hint=hint,
         ) from error  # fmt: skip
 
 
 def _likely(wrong: tuple[int | str, ...]) -> str:
-    """Return the setting that was most likely meant by a name, or all that its table has."""
+    """Return the setting most similar to a wrong name, or all settings of its table."""
     renamed = new_name(".".join(str(part) for part in wrong))
     if renamed is not None:
-        return f"{renamed}, as it is called now"
+        return f"{renamed} (its new name)"
     table: Any = AppSettings()
     for part in wrong[:-1]:
         table = getattr(table, str(part))
@@ -168,7 +168,7 @@ def to_toml(settings: AppSettings) -> str:
 
 def to_commented_toml(settings: AppSettings) -> str:
     """Return settings as TOML with the meaning of each, readable by `load_settings`."""
-    lines = ["# Settings of roomgraph. What you leave out keeps its default.", ""]
+    lines = ["# Settings of roomgraph. Settings that you leave out keep their defaults.", ""]
     _comment(lines, settings, "")
     return "\n".join(lines) + "\n"
 
@@ -188,7 +188,7 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
 
 
 def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
-    """Return only the named values and tables, where they are there, be it by their old name."""
+    """Return only the named values and tables, also if given by their old names."""
     chosen: dict[str, Any] = {}
     for name in names:
         found = _value(values, name)

@@ -1,4 +1,4 @@
-"""All settings of SLAM, a part for each module."""
+"""All settings of SLAM, with a table for each module."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from roomgraph.slam.relocalisation.word_index import WordIndexSettings
 
 
 class LossSettings(Settings):
-    """What happens when the camera is lost."""
+    """Behaviour when tracking is lost."""
 
     submaps: bool = Field(True, description="begin a sub-map where relocalisation fails")
     min_features: int = Field(

@@ -54,16 +54,16 @@ class FolderReader:
         else:
             raise DatasetError(
                 "colour and depth images do not pair up", where=root,
-                expected="equal file names, or as many of the one as of the other",
+                expected="equal file names, or equal numbers of images",
                 got=f"{len(colour)} colour and {len(depth)} depth images",
             )  # fmt: skip
         camera = camera or _camera_of(root)
         stamps = _stamps([stem for stem, _, _ in pairs])
         dropped = len(colour) - len(pairs), len(depth) - len(pairs)
-        notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units a metre"]
+        notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units per metre"]
         if any(dropped):
             notes.append(
-                f"dropped {dropped[0]} colour and {dropped[1]} depth images without partner"
+                f"dropped {dropped[0]} colour and {dropped[1]} depth images without a partner"
             )
         return RecordedSequence(
             root.resolve().name, root, camera, stamps,
@@ -106,7 +106,7 @@ def _camera_of(root: Path) -> Camera:
             return read_camera(root / name)
     raise DatasetError(
         "camera unknown", where=root, expected=f"{CAMERA_NAMES[0]} beside the images",
-        hint="name one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
+        hint="give one with --camera FILE.json (width, height, fx, fy, cx, cy, depth_scale)",
     )  # fmt: skip
 
 

@@ -43,7 +43,7 @@ def rectify(
         The depth image has not the size of the camera that took it.
     """
     pinhole = replace(camera.intrinsics, distortion=())
-    hint = 'if depth has a camera of its own, describe that in the camera file: "depth": {...}'
+    hint = 'for a separate depth camera, describe it in the camera file: "depth": {...}'
     taken_by = camera.intrinsics if camera.depth is None else camera.depth.intrinsics
     check_size(depth, taken_by, depth_path, hint)
     depth = undistort_depth(depth, taken_by)

@@ -106,7 +106,7 @@ def _registered(depth: DepthCamera) -> str:
     """Return what a person should know of a depth camera beside the colour camera."""
     beside_mm = 1000 * np.linalg.norm(depth.T_colour_depth[:3, 3])
     return (
-        f"depth comes from a camera of its own, {depth.intrinsics.width}x"
+        f"depth images are from a separate camera, {depth.intrinsics.width}x"
         f"{depth.intrinsics.height}, fx {depth.intrinsics.fx:g}, {beside_mm:.0f} mm beside "
-        "the colour camera; it is registered to that"
+        "the colour camera; it is registered to the colour images"
     )

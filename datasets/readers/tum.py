@@ -43,7 +43,7 @@ class TumReader:
         intrinsics = camera.intrinsics
         notes.append(
             f"camera {intrinsics.width}x{intrinsics.height}, fx {intrinsics.fx:g}, "
-            f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
+            f"depth {camera.depth_scale:g} units per metre, from {camera.origin}"
         )
         return RecordedSequence(
             root.resolve().name, root, camera, stamps,
@@ -61,14 +61,16 @@ def _associate(root: Path) -> tuple[NDArray[np.float64], list[Path], list[Path],
         raise DatasetError(
             "no colour image has a depth image at its time", where=root,
             expected=f"time stamps in rgb.txt and depth.txt within {MAX_DIFFERENCE_S} s",
-            got=f"{len(colour)} colour and {len(depth)} depth images, none that near",
+            got=f"{len(colour)} colour and {len(depth)} depth images, none within that time",
             hint=f"the depth's stamps are {typical_offset(colour_s, depth_s):+.4g} s off: "
             "take that from those in depth.txt",
         )  # fmt: skip
     notes = [f"{len(pairs)} colour images with depth within {MAX_DIFFERENCE_S} s"]
     unpaired = len(colour) - len(pairs), len(depth) - len(pairs)
     if any(unpaired):
-        notes.append(f"dropped {unpaired[0]} colour and {unpaired[1]} depth images without partner")
+        notes.append(
+            f"dropped {unpaired[0]} colour and {unpaired[1]} depth images without a partner"
+        )
     return (
         colour_s[pairs[:, 0]],
         [colour[i] for i in pairs[:, 0]],
@@ -108,7 +110,7 @@ def _rows(path: Path, columns: int) -> list[list[str]]:
             continue
         if len(words) != columns or not all(_is_number(w) for w in words[::2]):
             raise DatasetError(
-                "line not understood", where=f"{path}:{number}",
+                "invalid line", where=f"{path}:{number}",
                 expected=" ".join(["timestamp file"] * (columns // 2)), got=repr(line[:60]),
             )  # fmt: skip
         rows.append(words)
@@ -134,6 +136,6 @@ def _camera_of(root: Path, first_colour: Path) -> Camera:
         raise DatasetError(
             "camera unknown", where=root,
             expected="camera.json, or 640x480 images of a TUM Kinect", got=f"{width}x{height}",
-            hint="name the camera with --camera FILE.json",
+            hint="give the camera with --camera FILE.json",
         )  # fmt: skip
     return camera

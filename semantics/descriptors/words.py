@@ -134,7 +134,7 @@ class WordsDescriptor(ImageDescriptor):
                 "local features do not fit the place model",
                 expected="those of " + ("" if self.features is None else self.features.detector),
                 got=str(error),
-                hint="run with the feature settings that the model was trained with",
+                hint="use the feature settings that the model was trained with",
             ) from error  # fmt: skip
 
 

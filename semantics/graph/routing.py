@@ -83,7 +83,9 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
         Nothing is called so, or the coordinates lie outside of all that was mapped.
     """
     if not graph.nodes:
-        raise SemanticsError("no nodes to go between", expected="a graph of a tracked run")
+        raise SemanticsError(
+            "the graph has no nodes", expected="the graph of a run with tracked frames"
+        )
     if _COORDINATES.fullmatch(name.strip()):
         return (_nearest(graph, [float(value) for value in name.split(",")], name),)
     wanted = plain(name)
@@ -96,7 +98,7 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
         known.pop(UNKNOWN, None)
         raise SemanticsError(
             "no such place", where=name, expected=", ".join(known),
-            hint="or give coordinates: x,y in the map frame, x,y,z in the world",
+            hint="or give coordinates: x,y in the map frame or x,y,z in the world frame",
         )  # fmt: skip
     return tuple(_middle(graph, place) for place in places)
 
@@ -136,8 +138,8 @@ def find_route(
     reached = [node for node in goals if node in lengths]
     if not reached:
         raise SemanticsError(
-            "no way is known", where=f"from {start} to {goal}",
-            expected="places joined in the graph", got="parts of the map that do not touch",
+            "no known route", where=f"from {start} to {goal}",
+            expected="places connected in the graph", got="parts of the map that are not connected",
         )  # fmt: skip
     nearest = min(reached, key=lambda node: (lengths[node], node))
     path = tuple(int(node) for node in paths[nearest])

@@ -97,7 +97,7 @@ def sequence_examples(sequence: sequences.Sequence) -> list[Example]:
     examples = list(_visits(sequence)) if sequence.places is not None else []
     if not examples:
         raise SemanticsError(
-            "the sequence does not say which rooms it shows", where=sequence.root,
+            "the sequence has no room labels", where=sequence.root,
             expected="a places.csv with timestamp,label[,instance] near the frames' stamps",
         )  # fmt: skip
     return examples

@@ -69,7 +69,7 @@ def learn_more(
             hint="train it again",
         )  # fmt: skip
     if not len(vectors):
-        raise SemanticsError("nothing to learn from", expected="an image of the place")
+        raise SemanticsError("no image to learn from", expected="an image of the place")
     known, count = model.exemplars, len(vectors)
     exemplars = Exemplars(
         np.vstack([known.vectors, np.asarray(vectors, dtype=np.float16)]),

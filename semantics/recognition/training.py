@@ -118,7 +118,7 @@ def _check_labels(images: Sequence[Prepared]) -> Counter[str]:
     counts = Counter(image.example.label for image in images)
     if len(counts) < 2:
         raise SemanticsError(
-            "too few labels to tell apart", expected="readable images of two labels or more",
+            "too few labels to train on", expected="readable images of at least two labels",
             got=", ".join(counts) or "none",
         )  # fmt: skip
     return counts

@@ -1,4 +1,4 @@
-"""Finding loops: which keyframes to compare with, and which comparisons to believe."""
+"""Loop closing: candidates for a keyframe, and their verification."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class LoopSettings(Settings):
-    """When two keyframes are tried, and when they close a loop."""
+    """Selection and acceptance of loop candidates."""
 
     enabled: bool = Field(True, description="search for loop closures")
     min_way_m: float = Field(
@@ -82,7 +82,7 @@ class LoopCloser:
         graph: PoseGraph,
         known: set[int],
     ) -> list[Measured]:
-        """Return the loop constraints to take, now that a keyframe is in the graph, and index it.
+        """Return the loop constraints to add for a new keyframe of the graph, and index it.
 
         A loop that others confirm later is returned with these, so not all need be the new
         keyframe's.
@@ -109,12 +109,12 @@ class LoopCloser:
         return taken
 
     def alike(self, view: View, count: int) -> list[int]:
-        """Return the keyframes that look most like a view, for relocalisation."""
+        """Return the keyframes most similar to a view, for relocalisation."""
         words = self.index.words_of(view.features.descriptors, grow=False)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
     def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:
-        """Whether a motion between look-alikes rests on enough matches, on depth and on looks."""
+        """Whether enough matches, depth and appearance support a motion between similar views."""
         if inliers < self.settings.min_inliers:
             return False
         common = overlap(other.thumbnail, view.thumbnail, T_view_other)
@@ -133,7 +133,7 @@ class LoopCloser:
         ][: self.settings.candidates]
 
     def _nearby(self, keyframe: int, graph: PoseGraph, known: set[int]) -> list[int]:
-        """Return old keyframes that should see the same by their pose, the nearest first."""
+        """Return old keyframes whose poses suggest that they see the same, the nearest first."""
         others, T_world_other = graph.stacked()
         T = se3.inverse(graph[keyframe]) @ T_world_other
         distance = np.linalg.norm(T[:, :3, 3], axis=1)

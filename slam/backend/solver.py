@@ -1,4 +1,4 @@
-"""gtsam's iSAM2 behind a small interface: poses, priors and constraints in, the best poses out."""
+"""A small interface to iSAM2 of gtsam: poses, priors and constraints in, optimal poses out."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PRIOR_SIGMA = 1e-6
 
 
 class PoseGraphSettings(Settings):
-    """How constraints between keyframes are weighed, and which are thrown out again."""
+    """Weights of constraints between keyframes, and rejection of bad ones."""
 
     kernel: Literal["huber", "cauchy", "none"] = Field(
         "huber", description="robust kernel of every constraint"
@@ -123,7 +123,7 @@ def deviations(
 
 
 class Solver:
-    """Keeps the poses that fit all factors best, incrementally (iSAM2; Kaess et al., 2012).
+    """Optimises poses incrementally (iSAM2; Kaess et al., 2012).
 
     Additions and removals wait for the next `update`.
     """
@@ -142,11 +142,11 @@ class Solver:
         self._count = 0
 
     def add_pose(self, key: int, T: FloatArray) -> None:
-        """Add an unknown pose, believed to be `T` (4, 4)."""
+        """Add an unknown pose with initial estimate `T` (4, 4)."""
         self._values.insert(key, gtsam.Pose3(T))
 
     def add_prior(self, key: int, T: FloatArray) -> int:
-        """Hold a pose at `T` (4, 4); return a number to remove that by."""
+        """Add a prior at `T` (4, 4); return a number to remove it by."""
         noise = gtsam.noiseModel.Isotropic.Sigma(6, PRIOR_SIGMA)
         return self._add(gtsam.PriorFactorPose3(key, gtsam.Pose3(T), noise))
 
@@ -155,11 +155,11 @@ class Solver:
         return self._add(factor_of(constraint, self.settings, robust=True))
 
     def remove(self, number: int) -> None:
-        """Take a factor of an earlier update out."""
+        """Remove a factor of an earlier update."""
         self._removed.append(self._index.pop(number))
 
     def update(self, thoroughly: bool) -> None:
-        """Take in what waits.
+        """Update with all waiting factors.
 
         One step is enough where the new poses follow from the old; `thoroughly` iterates until
         the poses rest.

@@ -38,7 +38,7 @@ class DelaySettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class Delay:
-    """By how many frames the depth images come late (early, if negative), and the fit then."""
+    """Delay of the depth images in frames (negative: early), and the fit with it."""
 
     frames: int
     score: float

@@ -1,4 +1,4 @@
-"""Whether the depth's unit can be right."""
+"""Check of the unit of the depth images."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a camera's numbers can belong to its images."""
+"""Check of the intrinsics against the size of the images."""
 
 from __future__ import annotations
 

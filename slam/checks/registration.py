@@ -1,4 +1,4 @@
-"""Whether the depth image lies on the colour image."""
+"""Check of the alignment of depth and colour images."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Alignment:
         return np.asarray(self.scale * (pixels - middle) + middle + (self.dx, self.dy))
 
     def resized(self, factor: float) -> Alignment:
-        """Return the same for images so many times as large."""
+        """Return the alignment for scaled images."""
         return Alignment(self.scale, self.dx * factor, self.dy * factor)
 
     def displacement(self, shape: tuple[int, ...]) -> float:
@@ -71,7 +71,7 @@ class Alignment:
 
 @dataclass(frozen=True, slots=True)
 class Misplaced:
-    """The alignment that depth needs, in image pixels, and how well outlines then fit."""
+    """The required alignment of depth, in image pixels, and the fit of outlines with it."""
 
     alignment: Alignment
     score: float
@@ -95,7 +95,7 @@ def score(found: Outlines, alignment: Alignment | None = None) -> float:
 def find_misplacement(
     windows: Sequence[Sequence[Outlines]], settings: RegistrationSettings
 ) -> Misplaced | None:
-    """Return how depth lies beside colour, or None where it fits or nothing can be said.
+    """Return the misalignment of depth and colour; None if they fit or evidence is missing.
 
     Outlines of the foreground are edges in the colour image too, if the one lies on the other.
     Over all sizes and shifts, the correlation of both has its peak at the true alignment. It is

@@ -87,7 +87,7 @@ def check_sequence(
     scale = find_wrong_scale(evidence.depths_m, camera.depth_scale, settings.depth_scale)
     if scale is not None:
         hint = (
-            f"--depth-scale {scale.depth_scale:g} gives usual indoor distances"
+            f"--depth-scale {scale.depth_scale:g} gives typical indoor distances"
             if scale.depth_scale
             else "check the unit of the depth images (--depth-scale)"
         )

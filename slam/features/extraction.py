@@ -137,7 +137,7 @@ def _create(settings: FeatureSettings) -> Any:
             return cv2.xfeatures2d.SURF_create(100.0, extended=True)
         except (AttributeError, cv2.error) as error:
             raise SlamError(
-                "SURF is not in this build of OpenCV", where="features.detector",
+                "this build of OpenCV has no SURF", where="features.detector",
                 expected="sift, rootsift or orb", got="surf",
                 hint="SURF needs OpenCV built with OPENCV_ENABLE_NONFREE",
             ) from error  # fmt: skip

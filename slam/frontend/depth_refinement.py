@@ -1,4 +1,4 @@
-"""Views with little texture lean on the surfaces of their keyframe as well."""
+"""Depth refinement: poses of views with little texture, refined on keyframe surfaces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class DepthRefinementSettings(Settings):
-    """When a pose by features is improved on depth."""
+    """When a feature-based pose is refined by depth."""
 
     enabled: bool = Field(
         True, description="refine poses from few features by aligning depth surfaces"
@@ -52,11 +52,11 @@ class DepthRefiner:
         self._surface: Surface | None = None
 
     def rest_on(self, keyframe: int, frame: Frame) -> None:
-        """Take a new keyframe's depth as what later views are aligned with."""
+        """Use a new keyframe's depth as the reference of later views."""
         self._keyframe, self._frame, self._surface = keyframe, frame, None
 
     def refine(self, frame: Frame, estimate: Estimate) -> Estimate:
-        """Return an estimate improved on the surfaces, or as it was."""
+        """Return an estimate refined on the surfaces, or unchanged."""
         s = self.settings
         if not s.enabled or estimate.inliers >= s.inliers or estimate.reference != self._keyframe:
             return estimate

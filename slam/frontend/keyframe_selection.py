@@ -1,4 +1,4 @@
-"""Which views become keyframes."""
+"""Keyframe selection."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class KeyframeSettings(Settings):
 
 
 class KeyframeSelector:
-    """Compares views with the keyframe that they are tracked against, by what it shows.
+    """Compares views with their reference keyframe.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class KeyframeSelector:
         self.outline: FloatArray = np.empty((0, 3))
 
     def wants(self, view: View, estimate: Estimate) -> bool:
-        """Whether a view shows new space, or is losing touch with its keyframe."""
+        """Whether a view shows new space, or overlaps too little with its keyframe."""
         if not view.has_depth:
             return False
         settings, T = self.settings, estimate.T_camera_reference
@@ -105,7 +105,7 @@ class KeyframeSelector:
         return change > (settings.min_change if poor else 1)
 
     def nearest(self, T_world_camera: FloatArray, T_world_others: FloatArray) -> int | None:
-        """Return which of other keyframes (N, 4, 4) sees most nearly the same, if any does."""
+        """Return the most similar view among keyframes (N, 4, 4), if one is near enough."""
         if not len(T_world_others) or not len(self.outline):
             return None
         T = se3.inverse(T_world_camera) @ T_world_others
@@ -118,7 +118,7 @@ class KeyframeSelector:
         return nearest if away[nearest] + turned[nearest] < 1 else None
 
     def serves(self, known: Estimate, T_camera_other: FloatArray) -> bool:
-        """Whether an older keyframe explains a view, at the pose `T_camera_other` tracked to it."""
+        """Whether an older keyframe can be reused for a view tracked at `T_camera_other`."""
         settings = self.settings
         off = se3.inverse(T_camera_other) @ known.T_camera_reference
         return bool(
@@ -129,7 +129,7 @@ class KeyframeSelector:
 
     @property
     def _depth(self) -> float:
-        """How far away the outline is, metres."""
+        """Median depth of the outline, metres."""
         return float(np.median(self.outline[:, 2]))
 
     def _overlap(self, T_camera_reference: FloatArray, intrinsics: Intrinsics) -> float:

@@ -1,4 +1,4 @@
-"""Following the corners of a template frame by optical flow: what tracks most frames."""
+"""Tracking by optical flow from a template frame, which tracks most frames."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 
 
 class FlowSettings(Settings):
-    """How corners are chosen and followed."""
+    """How corners are chosen and tracked."""
 
     enabled: bool = Field(True, description="track corners by optical flow between keyframes")
     corners: int = Field(400, ge=20, le=5000, description="maximum number of corners tracked")
@@ -48,7 +48,7 @@ class FlowSettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class Template:
-    """A frame whose corners are looked for in later frames.
+    """A frame whose corners are tracked in later frames.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where a view is, given the points around."""
+"""Pose of a view from matches with a local map."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class TrackerSettings(Settings):
-    """How views are matched to the points around."""
+    """How views are matched to a local map."""
 
     ratio: float = Field(
         0.8,
@@ -76,11 +76,11 @@ class Located:
 
     @property
     def inliers(self) -> int:
-        """How many features agree."""
+        """Number of inliers."""
         return len(self.matches)
 
     def matches_by_owner(self) -> dict[int, int]:
-        """Return the number of agreeing matches by keyframe id."""
+        """Return the number of inlier matches by keyframe id."""
         ids, count = np.unique(self.local_map.owners[self.matches[:, 0]], return_counts=True)
         return dict(zip(ids.tolist(), count.tolist(), strict=True))
 
@@ -133,7 +133,7 @@ class Tracker:
     def guided(
         self, view: View, around: LocalMap, T_camera_reference: FloatArray, scale: float = 1.0
     ) -> Located | None:
-        """Return the view's pose from points looked for where a prediction puts them only.
+        """Return the view's pose from points searched only near their predicted positions.
 
         `scale` narrows the search radius.
         """
@@ -172,7 +172,7 @@ def _located(around: LocalMap, motion: RefinedMotion, pairs: Matches) -> Located
 
 
 def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspondences:
-    """Return points paired with what a view measures of them."""
+    """Return points paired with their measurements in a view."""
     columns = pairs[:, 1]
     return Correspondences(
         points[pairs[:, 0]], view.features.pixels[columns], view.points_camera[columns, 2]
@@ -180,6 +180,6 @@ def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspon
 
 
 def one_a_position(pairs: Matches, pixels: FloatArray) -> Matches:
-    """Keep one pair a feature position: SIFT describes a point once for each orientation."""
+    """Keep one pair per feature position, as SIFT describes a point once per orientation."""
     _, first = np.unique(np.rint(pixels[pairs[:, 1]]), axis=0, return_index=True)
     return pairs[np.sort(first)]

@@ -1,4 +1,4 @@
-"""How far a depth camera can be trusted."""
+"""Measurement noise of a depth camera."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class SensorNoise(Settings):
 
     @property
     def coefficients(self) -> NDArray[np.float64]:
-        """The two numbers (2,) that compiled loops have `depth_sigma` from."""
+        """The two coefficients (2,) of `depth_sigma`, for compiled loops."""
         return np.array([self.depth_floor_m, self.depth_quadratic])
 
     def depth_sigma(self, depth_m: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Which way is up, where the floor is, and along what the walls run."""
+"""The up direction, the floor height, and the direction of the walls."""
 
 from __future__ import annotations
 
@@ -76,12 +76,15 @@ class FloorPlane:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What had to be guessed, in words."""
+        """Warnings about assumptions that replace missing observations."""
         found = []
         if not self.has_level:
-            found.append("no level surface or wall seen: up is the camera's own, on average")
+            found.append(
+                "no horizontal surface or wall was observed: the up direction is the mean of the "
+                "camera's"
+            )
         if not self.has_floor:
-            found.append("no floor seen: heights count from the lowest surface")
+            found.append("no floor was observed: heights are measured from the lowest surface")
         return tuple(found)
 
 

@@ -1,4 +1,4 @@
-"""What is free and what is filled, carved out of the keyframes' depth rays."""
+"""The occupancy volume: free and occupied cells from the depth rays of keyframes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class OccupancyVolumeSettings(Settings):
-    """How finely space is carved, and what is in a robot's way."""
+    """Resolution of the occupancy volume, and height of obstacles."""
 
     cell_m: float = Field(0.05, ge=0.01, le=1, description="side of a cell, metres")
     max_cells: int = Field(

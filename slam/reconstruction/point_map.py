@@ -1,4 +1,4 @@
-"""The coloured map: what keyframes saw, fused in voxels at their present poses."""
+"""The coloured point map: keyframes fused in voxels at their present poses."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def build_map(
     settings: MapSettings,
     noise: SensorNoise,
 ) -> PointMap:
-    """Fuse keyframes at their present poses, and drop what others of them see through.
+    """Fuse keyframes at their present poses, and remove points that others see through.
 
     Nothing is kept between calls, so after a loop closure the map is simply built again; memory
     follows the space seen (see `fusion`), not the number of keyframes.
@@ -133,7 +133,7 @@ def _fused(
 
 
 class LiveMap:
-    """A map that follows the keyframes: what is new is fused, what has moved is fused again.
+    """A map that follows the keyframes: fuses new ones, and fuses moved ones again.
 
     It costs as much as has changed, not as much as there is. Things that have moved away stay in
     it; `build_map` is for keeps.
