@@ -1,4 +1,4 @@
-"""The pinhole camera and the files it is described in."""
+"""The pinhole camera and camera files."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Intrinsics:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthCamera:
-    """A depth camera beside the colour camera, and the motion (4, 4) from it to that one."""
+    """A separate depth camera, and the transform (4, 4) from it to the colour camera."""
 
     intrinsics: Intrinsics
     T_colour_depth: NDArray[np.float64]
@@ -166,7 +166,7 @@ def _depth_camera(values: dict[str, Any], colour: Intrinsics) -> DepthCamera:
 
 
 def _check(camera: Intrinsics, scale: float, path: Path) -> None:
-    """Raise where a camera has a value that cannot be."""
+    """Raise if a camera has an invalid value."""
     numbers = *camera.parameters, scale, *camera.distortion
     if not np.all(np.isfinite(numbers)) or len(camera.distortion) not in (0, 4, 5, 8):
         raise DatasetError(
@@ -211,7 +211,7 @@ def _values(intrinsics: Intrinsics) -> dict[str, Any]:
 
 
 def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
-    """Return the published TUM calibration that the sequence's `name` speaks of."""
+    """Return the published TUM calibration for the sequence's `name`."""
     values, origin = DEFAULT_CALIBRATION, "default Kinect calibration (525 px)"
     for key, published in TUM_CALIBRATIONS.items():
         if key in name or key.replace("freiburg", "fr") + "_" in name + "_":

@@ -1,4 +1,4 @@
-"""Stamped camera poses and the text files they travel in."""
+"""Stamped camera poses and their text files."""
 
 from __future__ import annotations
 

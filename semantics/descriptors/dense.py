@@ -23,7 +23,7 @@ _SMALLEST = 2
 
 
 class DenseSettings(Settings):
-    """Where an image is described, and how coarsely."""
+    """Positions, scales and size of the dense descriptors."""
 
     side: int = Field(
         200,
@@ -51,7 +51,7 @@ class DenseSettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class DenseDescriptors:
-    """What one image looks like, everywhere.
+    """The dense descriptors of one image.
 
     Attributes
     ----------

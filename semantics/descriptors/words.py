@@ -26,7 +26,7 @@ Vectors = NDArray[np.float32]
 
 
 class WordsSettings(Settings):
-    """How many words, learned from how much."""
+    """Number of visual words, and their training."""
 
     n_words: int = Field(100, ge=2, le=10000, description="number of visual words (paper: 100)")
     n_epochs: int = Field(

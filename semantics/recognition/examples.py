@@ -1,4 +1,4 @@
-"""Images whose place is known, to learn from and to test on."""
+"""Labelled images, for training and testing."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def folder_examples(root: Path) -> list[Example]:
 
 
 def _refuse_level_above(folder: Path) -> None:
-    """Raise where a class's folder holds no image itself, but several folders of images."""
+    """Raise if the folder of a class has no images, but several folders of images."""
     inside = list(folder.iterdir())
     if any(path.suffix.lower() in IMAGE_SUFFIXES for path in inside):
         return

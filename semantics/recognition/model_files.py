@@ -33,7 +33,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
-    """Write a model to the folder `path`, whole or not at all.
+    """Write a model to the folder `path`, completely or not at all.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
 
 
 def refuse_other(path: Path, overwrite: bool) -> None:
-    """Raise where a model may not be written: to be asked before it is learned.
+    """Raise if a model may not be written; call this before training.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a place model is made of, and what it is learned from."""
+"""Settings of the training of a place model."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ else:
 
 
 class TrainingSettings(Settings):
-    """What a place model is made of, and what it is learned from."""
+    """Settings of the training of a place model."""
 
     descriptor: str = Field("fisher", description=f"one of {', '.join(DESCRIPTORS)}")
     classifier: str = Field("linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
@@ -62,7 +62,7 @@ class TrainingSettings(Settings):
         return name
 
     def make_descriptor(self, features: FeatureSettings) -> ImageDescriptor:
-        """Return the chosen descriptor, which has learned nothing yet.
+        """Return the selected descriptor, untrained.
 
         Parameters
         ----------
@@ -73,6 +73,6 @@ class TrainingSettings(Settings):
         return DESCRIPTORS[self.descriptor](settings, features)
 
     def make_classifier(self) -> PlaceClassifier:
-        """Return the chosen classifier, which has learned nothing yet."""
+        """Return the selected classifier, untrained."""
         settings: Settings = getattr(self.classifiers, self.classifier)
         return CLASSIFIERS[self.classifier](**settings.model_dump())

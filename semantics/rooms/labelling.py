@@ -1,4 +1,4 @@
-"""The places that regions of the floor are, by the votes of the frames taken in them."""
+"""Room labelling: labels of regions, from the votes of the frames taken in them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 
 
 class RoomSettings(Settings):
-    """How places and regions of the floor go together."""
+    """How regions of the floor get their labels."""
 
     regions: RegionSettings = RegionSettings()
     min_agreement: float = Field(
@@ -46,7 +46,7 @@ class RoomSettings(Settings):
 
 @dataclass(frozen=True, slots=True)
 class Vote:
-    """What frame number `frame` says of the spot that it was taken from (world, metres)."""
+    """The vote of a frame for the label of its position (world, metres)."""
 
     frame: int
     position_world: FloatArray
@@ -56,7 +56,7 @@ class Vote:
 
 @dataclass(slots=True)
 class LabelledRegion:
-    """A place to be: its number in the image of regions, its label, and its nodes."""
+    """A labelled region: its number in the image of regions, its label, and its nodes."""
 
     number: int
     label: str
@@ -74,7 +74,7 @@ def label_rooms(
     cell_m: float,
     settings: RoomSettings,
 ) -> tuple[list[LabelledRegion], Regions]:
-    """Make a part of each visited region, or several; return them with their images.
+    """Label each visited region, or several parts of it; return them with their images.
 
     A part of an open plan is a room's worth of floor in one piece. Labels that hold less, here and
     there, are what views of the one room were mistaken for.
@@ -119,7 +119,7 @@ def _parted(
     region: NDArray[np.bool_],
     least_cells: float,
 ) -> tuple[list[str], NDArray[np.intp]]:
-    """Return the labels that hold enough of a region, and which of them each cell (R, C) has.
+    """Return the labels with enough area in a region, and the label of each cell (R, C).
 
     The one most voted for always does.
     """
@@ -160,7 +160,7 @@ def _nearest_label(
     kept: list[str],
     shape: tuple[int, ...],
 ) -> NDArray[np.intp]:
-    """Return which of the labels `kept` the node nearest to each cell (R, C) has."""
+    """Return the index in `kept` of the label of the node nearest to each cell (R, C)."""
     if len(kept) == 1:
         return np.zeros(shape, dtype=np.intp)
     away = []

@@ -1,4 +1,4 @@
-"""Giving places their floor, and joining them by doorways, once a run's map is finished."""
+"""Room polygons of places, and doorways between them, from a finished map."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 def with_rooms(
     graph: SemanticGraph, floor: FloorAnalysis, votes: Sequence[Vote], settings: RoomSettings
 ) -> SemanticGraph:
-    """Return the graph with rooms and doorways, its nodes at the place that they lie in.
+    """Return the graph with rooms and doorways, and each node assigned to its room.
 
     All that lies in one room belongs to one place, whatever a single view looked like: this mends
     what a view through a door into the next room got wrong, and a room entered by two doors or
@@ -112,7 +112,7 @@ def _placed(
     names: Sequence[str],
     is_here: NDArray[np.bool_],
 ) -> tuple[GraphNode, ...]:
-    """Put each node into its part; one that lies in none goes with the node before or after it."""
+    """Assign each node to its region; one outside all regions follows its neighbour in time."""
     of_node = {i: k for k, part in enumerate(labelled) for i in part.nodes}
     known = np.array(sorted(of_node), dtype=np.intp)
     taken = set(names)
@@ -131,7 +131,7 @@ def _placed(
 
 
 def _free_name(node: GraphNode, taken: set[str]) -> str:
-    """Return a name for a node's place that no other place has, and note it as taken."""
+    """Return an unused name for a node's place, and mark it as used."""
     name, number = node.place, 1
     while name in taken and name != UNKNOWN:
         name, number = f"{node.label}{number}", number + 1

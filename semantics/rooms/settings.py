@@ -1,4 +1,4 @@
-"""Settings of the rooms that the floor is cut into."""
+"""Settings of the segmentation into rooms."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from roomgraph.datasets.settings import Settings
 
 
 class RegionSettings(Settings):
-    """What is taken for a room of its own."""
+    """Which regions of the floor are separate rooms."""
 
     door_width_m: float = Field(
         1.3, gt=0, le=5, description="passages up to this width separate rooms, metres"

@@ -8,7 +8,7 @@ from roomgraph.datasets.settings import Settings
 
 
 class LabellerSettings(Settings):
-    """Which frames decide on a frame's label, and how."""
+    """How neighbouring frames determine a frame's label."""
 
     method: str = Field(
         "filter",
