@@ -1,4 +1,4 @@
-"""How this process takes memory and gives it back: for a run, whose images are all alike."""
+"""Memory allocation of the process, tuned for images of equal size."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 
 
 def keep_memory() -> None:
-    """Let freed memory stay with the process; where the C library has no such setting, nothing."""
+    """Keep freed memory in the process, if the C library has such a setting."""
     gc.set_threshold(GARBAGE_EVERY)
     try:
         mallopt = ctypes.CDLL(None).mallopt

@@ -1,4 +1,4 @@
-"""How long each stage takes."""
+"""Time measurement of the stages of a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the command line says, and how."""
+"""Terminal output: notes, warnings, progress bars and logging."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ class Terminal:
         self.console.print(text, style="dim" if dim else None, markup=False, soft_wrap=True)
 
     def warn(self, text: str) -> None:
-        """Print a line that a person should not overlook."""
+        """Print a warning."""
         self.console.print(Text(f"warning: {text}", style="yellow"), soft_wrap=True)
 
     @contextmanager
     def working(self, text: str) -> Iterator[None]:
-        """Say what is going on while the block runs, where nothing can be counted."""
+        """Show a message while the block runs, for work that cannot be counted."""
         if not self.console.is_terminal:
             self.say(text)
         with self.console.status(escape(text)):
@@ -52,7 +52,7 @@ class Terminal:
 
     @contextmanager
     def progress(self, title: str, unit: str = "") -> Iterator[Advance]:
-        """Show a bar while the block runs; call what it gives with done, total and a remark.
+        """Show a bar while the block runs; call the result with done, total and a remark.
 
         Where the output is no terminal, a line is printed now and then, which counts in `unit`.
         """
@@ -98,7 +98,7 @@ class Terminal:
 
 
 class _ProgressLines:
-    """Tells how far some work is in lines that a file or a log can hold."""
+    """Reports progress in lines, for output that is not a terminal."""
 
     def __init__(self, title: str, unit: str, say: Callable[[str], None]) -> None:
         self._title, self._unit, self._say = title, unit, say
@@ -107,7 +107,7 @@ class _ProgressLines:
         say(f"{title} ...")
 
     def advance(self, done: int, total: int, remark: str = "") -> None:
-        """Take the count; print it if that is due. The last count is left to `end`."""
+        """Update the count; print it if due. The last count is printed by `end`."""
         self._done, self._total = done, total
         is_tenth = (done - self._said) * LINES_PER_WORK >= total
         if is_tenth and done < total and perf_counter() - self._said_s >= BETWEEN_LINES_S:

@@ -1,4 +1,4 @@
-"""How often something that goes on or grows is drawn."""
+"""How often something that changes or grows is drawn."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class GrowthGate:
         self._step, self._parts, self._size = step, parts, 0
 
     def opens(self, size: int) -> bool:
-        """Tell whether it is time, and if so note the size."""
+        """Return whether it opens, and if so store the size."""
         due = self._size + max(self._step, self._size // self._parts) if self._size else 1
         if size < due:
             return False
@@ -31,7 +31,7 @@ class GrowthGate:
 
 
 class TimeGate:
-    """Opens every so many seconds of a sequence's own time, on average.
+    """Opens at a mean interval in seconds of sequence time.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class TimeGate:
         self._every_s, self._due_s, self._last_s = every_s, -math.inf, -math.inf
 
     def opens(self, now_s: float, anyway: bool = False) -> bool:
-        """Tell whether it is time, or it is to open anyway; where time runs backwards, it opens."""
+        """Return whether it opens: when due, when forced, or when time runs backwards."""
         in_turn = self._due_s <= now_s
         if not (anyway or in_turn or now_s < self._last_s):
             return False

@@ -1,4 +1,4 @@
-"""Doing the next items' work in a thread while the present one is used."""
+"""Working on the next items in a thread while the present one is used."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Result = TypeVar("Result")
 def prefetch(
     work: Callable[[Item], Result], items: Iterable[Item], ahead: int = 4
 ) -> Iterator[Result]:
-    """Yield ``work(item)`` in order, up to `ahead` of them worked out beforehand.
+    """Yield ``work(item)`` in order; up to `ahead` results are computed in advance.
 
     An exception in `work` is raised where its result would have been yielded, so all results
     before it are used.

@@ -1,4 +1,4 @@
-"""All settings: order flag > TOML file > default."""
+"""All settings. A flag overrides the TOML file, which overrides the default."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from roomgraph.slam.settings import SlamSettings
 
 
 class RecordingSettings(Settings):
-    """What is written on the way."""
+    """What is written and drawn during a run."""
 
     map_every: int = Field(
         16,
         ge=2,
-        description="keyframes between two drawings of the growing map, at least: a 16th "
-        "of a large one",
+        description="minimum number of keyframes between updates of the displayed map; for a "
+        "large map, a 16th of its keyframes",
     )
     checkpoint_every: int = Field(
-        200, ge=1, description="frames between two writings of the trajectory so far"
+        200, ge=1, description="number of frames after which the trajectory so far is saved"
     )
 
 
@@ -38,35 +38,50 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     frame_every_s: float = Field(
-        0.2, ge=0, description="a frame is shown every so many seconds of the sequence; "
-        "lost and found ones and the last one always",
+        0.2, ge=0,
+        description="time between displayed frames, seconds; the last frame and those where "
+        "tracking is lost or recovered are always shown",
     )  # fmt: skip
-    depth_every_s: float = Field(0.4, ge=0, description="the depth of a frame, likewise")
-    jpeg_quality: int = Field(75, ge=10, le=100, description="of the colour images")
-    depth_step: int = Field(3, ge=1, le=16, description="every n-th row and column of the depth")
-    max_keypoints: int = Field(400, ge=0, description="strongest features drawn a frame")
+    depth_every_s: float = Field(
+        0.4, ge=0, description="time between displayed depth images, seconds"
+    )
+    jpeg_quality: int = Field(75, ge=10, le=100, description="JPEG quality of the colour images")
+    depth_step: int = Field(
+        3, ge=1, le=16, description="every n-th row and column of the depth image is displayed"
+    )
+    max_keypoints: int = Field(
+        400, ge=0, description="maximum number of features drawn per frame; the strongest are drawn"
+    )
     picture_spacing_m: float = Field(
-        1.5, gt=0, description="between keyframes whose pictures stand in the map"
+        1.5, gt=0, description="minimum distance between keyframe pictures in the map, metres"
     )
     picture_turn_deg: float = Field(
-        90.0, gt=0, le=180, description="or by how much nearer ones look elsewhere"
+        90.0, gt=0, le=180, description="or minimum rotation between nearer ones, degrees"
     )
-    max_points: int = Field(60_000, ge=1000, description="points of a map on the way")
+    max_points: int = Field(
+        60_000, ge=1000, description="maximum number of points of each online map"
+    )
     max_points_total: int = Field(
-        1_500_000, ge=0, description="points of all maps on the way, spread over the frames"
+        1_500_000, ge=0, description="maximum number of points of all online maps together"
     )
-    max_points_final: int = Field(300_000, ge=1000, description="points of the last map")
-    point_radius_m: float = Field(0.013, gt=0, le=1, description="of the dense map's points")
+    max_points_final: int = Field(
+        300_000, ge=1000, description="maximum number of points of the final map"
+    )
+    point_radius_m: float = Field(
+        0.013, gt=0, le=1, description="radius of the final map's points, metres"
+    )
     headroom_m: float = Field(
-        0.7, gt=0, description="points higher than this above the path are hidden: the ceiling"
+        0.7,
+        gt=0,
+        description="points higher than this above the path are hidden (the ceiling), metres",
     )
-    port: int = Field(9876, ge=1024, le=65535, description="where the live window listens")
+    port: int = Field(9876, ge=1024, le=65535, description="port of the live viewer")
 
 
 class AppSettings(Settings):
-    """Everything that can be set for a run."""
+    """All settings of a run."""
 
-    seed: int = Field(0, ge=0, description="of all random choices")
+    seed: int = Field(0, ge=0, description="seed of all random choices")
     slam: SlamSettings = SlamSettings()
     semantics: SemanticsSettings = SemanticsSettings()
     viewer: ViewerSettings = ViewerSettings()
@@ -79,7 +94,7 @@ def load_settings(
     flags: Mapping[str, Any] | None = None,
     only: Collection[str] | None = None,
 ) -> AppSettings:
-    """Return the settings of a TOML file under those given as flags.
+    """Return the settings of a TOML file, overridden by flags.
 
     Parameters
     ----------
@@ -102,7 +117,7 @@ def load_settings(
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise AppError(
                 "settings cannot be read", where=path, expected="a TOML file", got=str(error),
-                hint="`roomgraph config` prints one to start from",
+                hint="`roomgraph config` prints a valid file",
             ) from error  # fmt: skip
     if only is not None:
         values = _chosen(values, only)
@@ -121,17 +136,17 @@ def load_settings(
                 expected=_likely(first["loc"]), got=name, hint=hint,
             ) from error  # fmt: skip
         raise AppError(
-            f"setting {name} is not allowed", where=path or "command line",
+            f"invalid value of setting {name}", where=path or "command line",
             expected=first["msg"].removeprefix("Input should be "),
             got=repr(first.get("input"))[:80], hint=hint,
         ) from error  # fmt: skip
 
 
 def _likely(wrong: tuple[int | str, ...]) -> str:
-    """Return the setting that was most likely meant by a name, or all that its table has."""
+    """Return the setting most similar to a wrong name, or all settings of its table."""
     renamed = new_name(".".join(str(part) for part in wrong))
     if renamed is not None:
-        return f"{renamed}, as it is called now"
+        return f"{renamed} (its new name)"
     table: Any = AppSettings()
     for part in wrong[:-1]:
         table = getattr(table, str(part))
@@ -153,7 +168,7 @@ def to_toml(settings: AppSettings) -> str:
 
 def to_commented_toml(settings: AppSettings) -> str:
     """Return settings as TOML with the meaning of each, readable by `load_settings`."""
-    lines = ["# Settings of roomgraph. What you leave out keeps its default.", ""]
+    lines = ["# Settings of roomgraph. Settings that you leave out keep their defaults.", ""]
     _comment(lines, settings, "")
     return "\n".join(lines) + "\n"
 
@@ -173,7 +188,7 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
 
 
 def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
-    """Return only the named values and tables, where they are there, be it by their old name."""
+    """Return only the named values and tables, also if given by their old names."""
     chosen: dict[str, Any] = {}
     for name in names:
         found = _value(values, name)

@@ -1,4 +1,4 @@
-"""Frames, cameras, trajectories, readers and the rendered building: what comes in."""
+"""Input: frames, cameras, trajectories, readers and rendered buildings."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The pinhole camera and the files it is described in."""
+"""The pinhole camera and camera files."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Intrinsics:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthCamera:
-    """A depth camera beside the colour camera, and the motion (4, 4) from it to that one."""
+    """A separate depth camera, and the transform (4, 4) from it to the colour camera."""
 
     intrinsics: Intrinsics
     T_colour_depth: NDArray[np.float64]
@@ -126,11 +126,11 @@ def read_camera(path: Path) -> Camera:
         depth = _depth_camera(values["depth"], intrinsics) if "depth" in values else None
     except OSError as error:
         raise DatasetError(
-            "camera file cannot be read", where=path, hint="name one with --camera FILE.json"
+            "camera file cannot be read", where=path, hint="give one with --camera FILE.json"
         ) from error
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         raise DatasetError(
-            "camera file not understood", where=path,
+            "invalid camera file", where=path,
             expected="JSON with width, height, fx, fy, cx, cy [, depth_scale], or Open3D's form",
             got=f"{type(error).__name__} {error}",
         ) from error  # fmt: skip
@@ -138,7 +138,7 @@ def read_camera(path: Path) -> Camera:
         _check(camera, scale, path)
     if depth is not None and not _is_motion(depth.T_colour_depth):
         raise DatasetError(
-            "camera file has a motion that cannot be", where=path,
+            "invalid transform in camera file", where=path,
             expected=f"T_colour_depth of 4 x 4 numbers: a rotation, and at most {FARTHEST_M:g} m",
             got=str(depth.T_colour_depth.tolist()), hint="its last column is in metres",
         )  # fmt: skip
@@ -166,18 +166,18 @@ def _depth_camera(values: dict[str, Any], colour: Intrinsics) -> DepthCamera:
 
 
 def _check(camera: Intrinsics, scale: float, path: Path) -> None:
-    """Raise where a camera has a value that cannot be."""
+    """Raise if a camera has an invalid value."""
     numbers = *camera.parameters, scale, *camera.distortion
     if not np.all(np.isfinite(numbers)) or len(camera.distortion) not in (0, 4, 5, 8):
         raise DatasetError(
-            "camera file has a value that cannot be", where=path,
+            "invalid value in camera file", where=path,
             expected="finite numbers, and 4, 5 or 8 of them for distortion",
             got=", ".join(f"{number:g}" for number in numbers),
         )  # fmt: skip
     positive = camera.width, camera.height, camera.fx, camera.fy, scale
     if min(positive) <= 0:
         raise DatasetError(
-            "camera file has a value that must be positive", where=path,
+            "value in camera file must be positive", where=path,
             expected="width, height, fx, fy, depth_scale > 0",
             got=", ".join(f"{number:g}" for number in positive),
         )  # fmt: skip
@@ -211,7 +211,7 @@ def _values(intrinsics: Intrinsics) -> dict[str, Any]:
 
 
 def tum_camera(name: str, width: int = 640, height: int = 480) -> Camera:
-    """Return the published TUM calibration that the sequence's `name` speaks of."""
+    """Return the published TUM calibration for the sequence's `name`."""
     values, origin = DEFAULT_CALIBRATION, "default Kinect calibration (525 px)"
     for key, published in TUM_CALIBRATIONS.items():
         if key in name or key.replace("freiburg", "fr") + "_" in name + "_":

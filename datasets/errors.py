@@ -1,4 +1,4 @@
-"""Errors that a person can act on."""
+"""Errors with a next step for the user."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 class RoomgraphError(Exception):
-    """An expected failure, told in one line: what, where, expected, got and the next step.
+    """An expected failure, in one line: what, where, expected, got and the next step.
 
     Parameters
     ----------

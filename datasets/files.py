@@ -1,4 +1,4 @@
-"""Writing so that a file is either whole or not there, also after the power fails."""
+"""Atomic writing of files, safe even in a power failure."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def replace_folder(fresh: Path, path: Path) -> None:
-    """Put the finished folder `fresh` in the place of `path`, which may be there already.
+    """Replace `path`, if it exists, by the finished folder `fresh`.
 
     Both lie beside each other. The files are on the disk before the folder has its name: all at
     once, as they may be many. An old folder is only removed once the new one stands; if that
@@ -55,7 +55,7 @@ def replace_folder(fresh: Path, path: Path) -> None:
 
 
 def _flush_folder(folder: Path) -> None:
-    """Put a folder's names on the disk, where the system lets folders be flushed."""
+    """Flush a folder to disk, if the system supports it."""
     with suppress(OSError):
         descriptor = os.open(folder, os.O_RDONLY)
         try:

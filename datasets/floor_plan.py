@@ -53,7 +53,7 @@ def read_floor_plan(path: Path) -> FloorPlanTruth:
         return FloorPlanTruth(rooms, tuple((first, second) for first, second in pairs))
     except (OSError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
         raise DatasetError(
-            "floor plan not understood", where=path,
+            "invalid floor plan", where=path,
             expected="rooms with name, label, area and polygon, doorways with their rooms",
             got=f"{type(error).__name__} {error}",
         ) from error  # fmt: skip

@@ -56,7 +56,7 @@ def read_places(path: Path) -> PlaceTruth:
         reader = csv.DictReader(file)
         if not {"timestamp", "label"} <= set(reader.fieldnames or ()):
             raise DatasetError(
-                "place labels not understood", where=f"{path}:1",
+                "invalid place labels", where=f"{path}:1",
                 expected="a header timestamp,label[,instance]", got=str(reader.fieldnames),
             )  # fmt: skip
         rows = list(reader)

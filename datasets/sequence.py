@@ -1,4 +1,4 @@
-"""What every reader offers: a sequence of RGB-D frames with what is known about it."""
+"""The interface of sequences: RGB-D frames with camera and ground truth."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Sequence(Protocol):
 
     @property
     def root(self) -> Path:
-        """Where it lies on disk."""
+        """Path on disk."""
         ...
 
     @property
@@ -47,7 +47,7 @@ class Sequence(Protocol):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a person should know: frames dropped, the calibration chosen ..."""
+        """Notes for the user: frames dropped, the calibration chosen ..."""
         ...
 
     @property

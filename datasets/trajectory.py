@@ -1,4 +1,4 @@
-"""Stamped camera poses and the text files they travel in."""
+"""Stamped camera poses and their text files."""
 
 from __future__ import annotations
 
@@ -71,9 +71,7 @@ def read_tum(path: Path) -> Trajectory:
     order = np.argsort(values[:, 0], kind="stable")
     values = values[order]
     if np.any(np.linalg.norm(values[:, 4:], axis=1) < 0.5):
-        raise DatasetError(
-            "a quaternion has no length", where=path, expected="qx qy qz qw of norm 1"
-        )
+        raise DatasetError("a quaternion has norm 0", where=path, expected="qx qy qz qw of norm 1")
     return Trajectory(values[:, 0], se3.from_quaternion(values[:, 4:], values[:, 1:4]))
 
 
@@ -119,7 +117,7 @@ def _read_numbers(path: Path, columns: int) -> NDArray[np.float64]:
             rows.append([])
         if len(rows[-1]) != columns or not np.all(np.isfinite(rows[-1])):
             raise DatasetError(
-                "trajectory line not understood", where=f"{path}:{number}",
+                "invalid trajectory line", where=f"{path}:{number}",
                 expected=f"{columns} numbers", got=repr(line[:60]),
             )  # fmt: skip
     if not rows:

@@ -36,7 +36,7 @@ def read_document(path: Path, schema: str, *versions: int) -> dict[str, Any]:
     found = (document.get("schema"), document.get("version")) if isinstance(document, dict) else ()
     if found not in [(schema, version) for version in versions]:
         raise SemanticsError(
-            "file of another kind", where=path, expected=f"{schema} version {versions[0]}",
+            "wrong kind of file", where=path, expected=f"{schema} version {versions[0]}",
             got=" version ".join(str(part) for part in found) or type(document).__name__,
         )  # fmt: skip
     return dict(document)

@@ -144,7 +144,7 @@ def read_labels(path: Path) -> LabelSpace:
         return LabelSpace(tuple(str(row["name"]) for row in rows), colours)
     except (KeyError, TypeError, ValueError) as error:
         raise SemanticsError(
-            "label space not understood", where=path,
+            "invalid label space", where=path,
             expected='"labels": a list of id, name, colour', got=f"{type(error).__name__} {error}",
         ) from error  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""The semantic layer's settings, one part a module."""
+"""Settings of the semantic layer, with a table for each module."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A view that is kept, and what hangs on it."""
+"""Keyframes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Keyframe:
-    """A view that others are measured against; everything in the world hangs on one.
+    """A view that serves as a reference; every pose in the world is relative to one.
 
     Attributes
     ----------

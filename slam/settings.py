@@ -1,4 +1,4 @@
-"""All settings of SLAM, a part for each module."""
+"""All settings of SLAM, with a table for each module."""
 
 from __future__ import annotations
 
@@ -28,32 +28,42 @@ from roomgraph.slam.relocalisation.word_index import WordIndexSettings
 
 
 class LossSettings(Settings):
-    """What happens when the camera is lost."""
+    """Behaviour when tracking is lost."""
 
-    submaps: bool = Field(True, description="begin a sub-map where the camera is not found again")
+    submaps: bool = Field(True, description="begin a sub-map where relocalisation fails")
     min_features: int = Field(
-        100, ge=15, description="features with depth that a sub-map begins with, at least"
+        100, ge=15, description="minimum number of features with depth to begin a sub-map"
     )
     pause: int = Field(
-        10, ge=1, description="lost frames from one try to begin a sub-map to the next"
+        10, ge=1, description="number of lost frames between attempts to begin a sub-map"
     )
     min_correlation: float = Field(
         0.5,
         ge=-1,
         le=1,
-        description="of the grey levels of the surface that a view found by features shares with "
-        "its keyframe, at least: less, and the camera is lost",
+        description="minimum correlation of grey levels between a view and its keyframe; below "
+        "it, the camera is lost",
     )
-    reach_m: float = Field(1.0, gt=0, le=100, description="found again at once this near, metres")
+    reach_m: float = Field(
+        1.0,
+        gt=0,
+        le=100,
+        description="a relocalisation within this distance is accepted at once, metres",
+    )
     speed_m_s: float = Field(
-        1.5, ge=0, le=100, description="reach added for each second that the camera was lost"
+        1.5,
+        ge=0,
+        le=100,
+        description="increase of this distance for each second that the camera was lost, m/s",
     )
 
 
 class SlamSettings(Settings):
     """All of SLAM's settings."""
 
-    max_depth_m: float = Field(8.0, gt=0, le=200, description="readings beyond are ignored")
+    max_depth_m: float = Field(
+        8.0, gt=0, le=200, description="depth readings beyond are ignored, metres"
+    )
     features: FeatureSettings = FeatureSettings()
     noise: SensorNoise = SensorNoise()
     motion: MotionSettings = MotionSettings()

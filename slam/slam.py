@@ -39,7 +39,7 @@ FloatArray = NDArray[np.float64]
 
 
 class Slam:
-    """Tracks a camera against local keyframes and keeps these consistent.
+    """Tracks a camera against local keyframes and keeps the keyframes consistent.
 
     SLAM of Kostavelis & Gasteratos (2013, section 3.1): matched features give a coarse
     motion, points of common planes refine it by ICP; here between keyframes, joined in a pose
@@ -78,14 +78,14 @@ class Slam:
         self._selector = KeyframeSelector(settings.keyframes, settings.depth_odometry.keyframe_m)
 
     def prepare(self, frame: Frame) -> View:
-        """Do the part that needs no state and may run ahead in a thread."""
+        """Prepare a frame; needs no state and may run ahead in a thread."""
         view = View(frame, self._extractor, self.settings.max_depth_m)
         if self._status.needs_features and view.has_depth:
             view.describe()
         return view
 
     def process(self, frame: Frame | View) -> Tracking:
-        """Take the next frame in and say where the camera is."""
+        """Process the next frame and return the pose of the camera."""
         view = frame if isinstance(frame, View) else self.prepare(frame)
         if self._status.is_initialising:
             return self._begin(view)
@@ -98,7 +98,7 @@ class Slam:
         return self._accept(view, estimate, state)
 
     def finish(self) -> tuple[LoopClosure, ...]:
-        """Wait for the keyframes in the making: poses and map are final then.
+        """Wait for the keyframes in progress; then poses and map are final.
 
         Returns the loops that became known with them, of which no frame told.
         """
@@ -107,7 +107,7 @@ class Slam:
 
     @property
     def keyframes(self) -> Mapping[int, Keyframe]:
-        """The keyframes by id, but for those in the making."""
+        """The finished keyframes by id."""
         return MappingProxyType(self._backend.keyframes)
 
     @property
@@ -121,12 +121,12 @@ class Slam:
 
     @property
     def constraints(self) -> tuple[Constraint, ...]:
-        """The constraints between keyframes that are not in the making."""
+        """The constraints between finished keyframes."""
         return self._backend.constraints
 
     @property
     def closures(self) -> tuple[LoopClosure, ...]:
-        """All loops that hold between keyframes that are not in the making."""
+        """All valid loop closures between finished keyframes."""
         return self._backend.closures
 
     @property
@@ -138,7 +138,7 @@ class Slam:
         return self._mapper.graph
 
     def submap_of(self, anchor: Anchor) -> int:
-        """Return the oldest keyframe's id of the sub-map that a pose hangs in, after `finish`.
+        """Return the id of the oldest keyframe of a pose's sub-map, after `finish`.
 
         Raises
         ------
@@ -148,21 +148,21 @@ class Slam:
         return self.pose_graph.component_of(anchor.keyframe)
 
     def is_placed(self, anchor: Anchor) -> bool:
-        """Whether it is known where in the world a pose is: not so in a sub-map of its own."""
+        """Whether a pose in the world is known, which it is not in an unconnected sub-map."""
         return anchor.keyframe in self._backend.placed
 
     @property
     def placed_poses(self) -> dict[int, FloatArray]:
-        """T_world_keyframe (4, 4) of the keyframes that have a place in the world."""
+        """T_world_keyframe (4, 4) of the keyframes with a known pose in the world."""
         return {k: T for k, T in self._backend.poses.items() if k in self._backend.placed}
 
     def build_map(self) -> PointMap:
-        """Fuse all keyframes' points that have a place in the world, at their present poses."""
+        """Fuse the keyframes with a known pose in the world, at their present poses."""
         placed = [k for k in self.keyframes.values() if k.id in self._backend.placed]
         return build_map(placed, self.keyframe_poses, self.settings.map, self.settings.noise)
 
     def map_sketcher(self) -> Callable[[], PointMap]:
-        """Return what draws a coarse map of the keyframes as they are now.
+        """Return a function that builds a coarse map of the present keyframes.
 
         It may be called later and in another thread, but one at a time and in the order in which
         they were asked for.
@@ -187,7 +187,7 @@ class Slam:
         )
 
     def _begin(self, view: View) -> Tracking:
-        """Start the map with the first frame that shows anything in depth."""
+        """Start the map with the first frame that has depth."""
         if not view.has_depth:
             return _without_pose(view, TrackingState.SKIPPED)
         keyframe = self._backend.start(view, np.eye(4))
@@ -196,7 +196,7 @@ class Slam:
         return tracking
 
     def _relocalise(self, view: View) -> Estimate | None:
-        """Look for the view among the keyframes that look alike, not far from where it was lost.
+        """Relocalise a view in similar keyframes near the position where tracking was lost.
 
         Further off it may be a place that merely looks the same: then a sub-map waits for several
         keyframes to agree on where it belongs.
@@ -218,7 +218,7 @@ class Slam:
         return None
 
     def _lose(self, view: View) -> Tracking:
-        """Say that the camera is lost, and begin a sub-map if there is enough to begin with."""
+        """Set the state to lost, and begin a sub-map if the view has enough features."""
         self._localiser.stand_still()
         if not view.has_depth:
             self._status.interrupted(view.frame)
@@ -232,19 +232,19 @@ class Slam:
         return tracking
 
     def _may_begin_submap(self, view: View) -> bool:
-        """Whether a lost view shows enough, and the last try is long enough ago."""
+        """Whether a lost view has enough features, and the last attempt is long enough ago."""
         loss = self.settings.loss
         is_due = self._status.lost_in_a_row % loss.pause == 1 % loss.pause
         return loss.submaps and is_due and bool(view.has_point.sum() >= loss.min_features)
 
     def _accept(self, view: View, estimate: Estimate, state: TrackingState) -> Tracking:
-        """Move on to a located view."""
+        """Continue from a located view."""
         tracking = self._move_to(view, estimate, state)
         self._status.found(view.frame, by_flow=estimate.method == "flow")
         return tracking
 
     def _move_to(self, view: View, estimate: Estimate, state: TrackingState) -> Tracking:
-        """Make a located view a keyframe, or at least what to track against."""
+        """Turn a located view into a keyframe, or at least track against it."""
         if self._selector.wants(view, estimate):
             known = self._known(view, estimate)
             if known is None:
@@ -259,7 +259,7 @@ class Slam:
         return self._report(view, state, anchor, estimate)
 
     def _known(self, view: View, estimate: Estimate) -> Estimate | None:
-        """Return a view's pose by an older keyframe that saw the same, so that none is needed.
+        """Return a view's pose from an older keyframe that can be reused instead of a new one.
 
         Only where it agrees with the way tracked: otherwise a loop is to be closed first.
         """
@@ -275,7 +275,7 @@ class Slam:
         return known if self._selector.serves(known, T_camera_other) else None
 
     def _nearest(self, estimate: Estimate, T_world_camera: FloatArray) -> int | None:
-        """Return the keyframe that sees most nearly the same, but for the one tracked against."""
+        """Return the keyframe with the most similar view, other than the reference."""
         placed, T_world = self._backend.placed, self._backend.poses
         others = [
             k

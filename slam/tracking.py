@@ -1,4 +1,4 @@
-"""What SLAM says of each frame."""
+"""Results of SLAM for each frame."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from roomgraph.slam.features.view import View
 
 
 class TrackingState(StrEnum):
-    """How a frame fared."""
+    """Tracking state of a frame."""
 
     OK = "ok"
     LOST = "lost"
@@ -53,7 +53,7 @@ class LoopClosure:
 
 @dataclass(frozen=True, slots=True)
 class Tracking:
-    """SLAM's account of one frame.
+    """The result of SLAM for one frame.
 
     Attributes
     ----------
@@ -100,5 +100,5 @@ class Tracking:
         return Features.none() if self.view is None else self.view.features
 
     def without_view(self) -> Tracking:
-        """Return the same account without the frame, small enough to keep for every frame."""
+        """Return the result without the frame, small enough to keep for every frame."""
         return replace(self, view=None, pixels=np.empty((0, 2)))

@@ -1,4 +1,4 @@
-"""Telling where images were taken: as text, as JSON, aloud."""
+"""Output of where images were taken: as text, as JSON, as speech."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ Answers = Iterable[tuple[Query, Whereabouts]]
 def answer(
     graph: SemanticGraph, answers: Answers, is_walk: bool, speak: bool, as_json: bool
 ) -> None:
-    """Tell the answers as they come: of a walk what changes, of images each one.
+    """Print the answers as they arrive: for a walk the changes, for images each one.
 
-    A voice that is not there, or fails, is noted once; the answers go on in writing.
+    If speech is not available or fails, this is reported once; the text output continues.
     """
     voice = _Aloud() if speak else None
     if as_json:
@@ -50,11 +50,11 @@ def _follow(answers: Answers, voice: _Aloud | None) -> None:
             typer.echo(f"{query.frame.stamp_s:.2f} s: {sentence} ({where.sureness:.0%} sure)")
             if voice is not None:
                 voice.say(sentence)
-    typer.echo(f"{frames} frames: {placed} with a place, {posed} with a pose")
+    typer.echo(f"{frames} frames: place found for {placed}, pose found for {posed}")
 
 
 class _Aloud:
-    """Says sentences until the voice fails."""
+    """Speaks sentences until the voice fails."""
 
     def __init__(self) -> None:
         self._voice: Voice | None = None
@@ -64,7 +64,7 @@ class _Aloud:
             typer.echo(f"roomgraph: {error}", err=True)
 
     def say(self, sentence: str) -> None:
-        """Say a sentence, if there is still a voice."""
+        """Speak a sentence, if the voice still works."""
         try:
             if self._voice is not None:
                 self._voice.say(sentence)

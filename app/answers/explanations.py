@@ -1,4 +1,4 @@
-"""Why places have their labels, in words for the report and the viewer."""
+"""Explanations of the labels of places, for the report and the viewer."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from itertools import pairwise
 from roomgraph.semantics.graph.evidence import Evidence
 from roomgraph.semantics.graph.graph import GraphNode, SemanticGraph
 
-# Frames closer together than this are told as a range.
+# Frames closer together than this form a range.
 _GAP = 10
 _RANGES = 6
 _LEAST = 0.005
 
 
 def place_reasons(graph: SemanticGraph) -> list[dict[str, str]]:
-    """Return a row for each place whose label somebody voted for: what spoke for it."""
+    """Return a row with the evidence for each place whose label was voted for."""
     return [
         _reason(name, [node for node in graph.nodes if node.place == name])
         for name in graph.places
@@ -24,7 +24,7 @@ def place_reasons(graph: SemanticGraph) -> list[dict[str, str]]:
 
 
 def node_words(node: GraphNode) -> str:
-    """Return a node's place and what spoke for its label, on two lines at most."""
+    """Return a node's place and the evidence for its label, on at most two lines."""
     if not node.evidence.voted:
         return node.place
     count = len(node.evidence.voters)
@@ -34,16 +34,16 @@ def node_words(node: GraphNode) -> str:
 
 
 def chances(evidence: Evidence) -> str:
-    """Return the likeliest labels with their probability, if it is half a percent or more."""
+    """Return the labels with a probability of at least half a percent."""
     known = [(name, chance) for name, chance in evidence.labels if chance >= _LEAST]
     return ", ".join(f"{_spaced(name)} {chance:.0%}" for name, chance in known)
 
 
 def ranges(frames: Sequence[int]) -> str:
-    """Return sorted frame numbers as ranges, small gaps left out; the last few as a count."""
+    """Return sorted frame numbers as ranges, ignoring small gaps; further ranges as a count."""
     spans = list(_spans(frames))
     text = ", ".join(f"{a}" if a == b else f"{a}\N{EN DASH}{b}" for a, b in spans[:_RANGES])
-    return text + (f" and {len(spans) - _RANGES} more stretches" if len(spans) > _RANGES else "")
+    return text + (f" and {len(spans) - _RANGES} more ranges" if len(spans) > _RANGES else "")
 
 
 def _reason(name: str, nodes: Sequence[GraphNode]) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Which place of a mapped building an image was taken in."""
+"""Finding the place of a mapped building in which an image was taken."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Whereabouts:
 
 
 class Locator:
-    """Answers for one run, its database loaded once.
+    """Locates images in one run; its database is loaded once.
 
     Raises
     ------
@@ -93,7 +93,7 @@ class Locator:
         return Camera(self._database.intrinsics, 1000.0, "the run")
 
     def locate(self, frame: Frame) -> Whereabouts:
-        """Say where a frame was taken; one without readings is located by its colours alone."""
+        """Return where a frame was taken; without depth readings, its colours alone are used."""
         found = self._relocaliser.locate(View(frame, self._extractor, self._max_depth_m))
         if not self.graph.nodes or found.best is None:
             return Whereabouts()
@@ -113,7 +113,7 @@ class Locator:
         )
 
     def _by_looks(self, found: Relocation) -> Whereabouts:
-        """Take the place of most of the keyframes that look alike."""
+        """Return the place of most of the similar keyframes."""
         weights: defaultdict[str, float] = defaultdict(float)
         nodes: dict[str, GraphNode] = {}
         for resemblance in found.resemblances:
@@ -132,7 +132,7 @@ class Locator:
         return self.graph.nodes[int(distances.argmin())]
 
     def _place_at(self, position_world: NDArray[np.float64]) -> tuple[str, str] | None:
-        """Return the place on whose floor a position lies, with its label, if it is one's."""
+        """Return the place that contains a position, with its label; None outside all places."""
         if self.graph.T_map_world is None:
             return None
         x, y, _ = se3.transform(self.graph.T_map_world, position_world[None])[0]

@@ -1,4 +1,4 @@
-"""The images that a question is about."""
+"""The images to be located."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _FRAME_RATE_HZ = 30.0
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """An image to be located: its name, the frame, and what may follow it."""
+    """An image to be located: its name and the frame."""
 
     name: str
     frame: Frame
@@ -59,7 +59,7 @@ def queries(source: InputOptions, depth: Path | None, camera: Camera) -> Iterato
     if not files or (depth is not None and source.sequence.is_dir()):
         raise AppError(
             "nothing to locate", where=source.sequence,
-            expected="an image, with its depth or without; a folder of images; or a sequence",
+            expected="an image, with or without its depth; a folder of images; or a sequence",
         )  # fmt: skip
     yield from _image_queries(files, depth, camera)
 
@@ -76,7 +76,7 @@ def _files(data: Path) -> list[Path]:
 
 
 def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Iterator[Query]:
-    """Yield images as if taken at 30 a second."""
+    """Yield images with time stamps as if taken at 30 per second."""
     for index, path in enumerate(files):
         colour = read_colour(path)
         fitted = _fitted(camera, colour.shape[1], colour.shape[0], path)
@@ -90,13 +90,13 @@ def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Ite
 
 
 def _fitted(camera: Camera, width: int, height: int, path: Path) -> Camera:
-    """Return a camera for images of another size, but of the same shape."""
+    """Return a camera for images of another size but the same aspect ratio."""
     known = camera.intrinsics
     scale = width / known.width
     if abs(known.height * scale - height) > 1:
         raise AppError(
-            "image of another shape than the camera's", where=path,
+            "aspect ratio of the image differs from the camera's", where=path,
             expected=f"{known.width}x{known.height} or a multiple of it", got=f"{width}x{height}",
-            hint="name the camera it was taken with: --camera FILE.json",
+            hint="give the camera that took it: --camera FILE.json",
         )  # fmt: skip
     return replace(camera, intrinsics=known.resized(width, height))

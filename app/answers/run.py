@@ -51,7 +51,7 @@ class LabelledPoints:
 
 
 class Run:
-    """What a run found, read when it is asked for.
+    """The results of a run, read when they are first used.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Run:
 
     @cached_property
     def occupancy(self) -> OccupancyGrid | None:
-        """Where there is free way; None where the run found no floor."""
+        """The occupancy grid; None if the run found no floor."""
         path = self.folder.occupancy
         return read_occupancy(path) if path.exists() else None
 
@@ -109,7 +109,7 @@ class Run:
         return summarise(self.graph)
 
     def route(self, start: str, goal: str) -> Route:
-        """Return the shortest way from a place, a label or coordinates to another.
+        """Return the shortest route from a place, a label or coordinates to another.
 
         Raises
         ------
@@ -121,7 +121,7 @@ class Run:
     def locate(
         self, colour: NDArray[np.uint8], depth_m: NDArray[np.float32] | None = None
     ) -> Whereabouts:
-        """Say where in the map an image was taken by the run's camera.
+        """Return where in the map an image was taken by the run's camera.
 
         Parameters
         ----------

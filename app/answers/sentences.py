@@ -44,10 +44,10 @@ def places_json(places: tuple[PlaceSummary, ...]) -> list[dict[str, Any]]:
 
 
 def route_text(route: Route) -> str:
-    """Return a way in sentences, a line each."""
+    """Return a route in sentences, one per line."""
     start, goal = route.legs[0], route.legs[-1]
     if len(route.legs) == 1:
-        return f"{start.place}: stay in it, {route.length_m:.1f} m."
+        return f"Stay in {start.place}: {route.length_m:.1f} m."
     lines = [f"From {start.place} to {goal.place}: {route.length_m:.1f} m."]
     for number, leg in enumerate(route.legs, 1):
         lines.append(f"{number}. {_leg_text(leg, route.legs[number:])}")
@@ -57,7 +57,7 @@ def route_text(route: Route) -> str:
 def _leg_text(leg: Leg, rest: tuple[Leg, ...]) -> str:
     inside = f"In {leg.place} go {leg.length_m:.1f} m"
     if not rest:
-        return f"{inside}: you are there."
+        return f"{inside} to the goal."
     way = "" if leg.turn_deg is None else turning(leg.turn_deg)
     way = way if way == "straight on" else f"turn {way}"
     if leg.door is None:
@@ -67,7 +67,7 @@ def _leg_text(leg: Leg, rest: tuple[Leg, ...]) -> str:
 
 
 def route_json(route: Route) -> dict[str, Any]:
-    """Return a way as JSON values: metres, degrees (left positive)."""
+    """Return a route as JSON values: metres, degrees (left positive)."""
     return {
         "length_m": round(route.length_m, 3),
         "nodes": list(route.nodes),
@@ -88,15 +88,15 @@ def route_json(route: Route) -> dict[str, Any]:
 def whereabouts_text(graph: SemanticGraph, where: Whereabouts) -> str:
     """Return an answer as a sentence."""
     if where.place == UNKNOWN and where.T_world_camera is None:
-        return "I do not know this place."
+        return "Place not recognised."
     sure = f"{where.sureness:.0%} sure"
     text = f"You are in {spoken(where.place)} ({sure}), nearest node {where.node}"
     if where.T_world_camera is None:
-        return f"{text}; by looks alone, no pose."
+        return f"{text}; recognised by appearance only, without a pose."
     pose = position_map(graph, where)
     if pose is None:
         x, y, z = where.T_world_camera[:3, 3]
-        return f"{text}, at x {x:z.2f} y {y:z.2f} z {z:z.2f} m in the world."
+        return f"{text}, at x {x:z.2f} y {y:z.2f} z {z:z.2f} m in the world frame."
     x, y, heading = pose
     return f"{text}, on the map at x {x:z.2f} y {y:z.2f} m, heading {heading:z.0f}°."
 

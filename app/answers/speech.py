@@ -1,4 +1,4 @@
-"""Telling a person where they are: when to say what, and saying it aloud."""
+"""Speech output of where a person is: what to say when, and speaking it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ REPEAT_S = 10.0
 
 @dataclass
 class Announcer:
-    """Decides when something is worth saying. Frames without an answer are passed over."""
+    """Decides when to announce a place. Frames without an answer are ignored."""
 
     hold_frames: int = HOLD_FRAMES
     repeat_s: float = REPEAT_S
@@ -28,7 +28,7 @@ class Announcer:
     _said_s: float = field(default=0.0, init=False)
 
     def hear(self, place: str, stamp_s: float) -> str | None:
-        """Take in a frame's answer and its time; return what to say now, if anything."""
+        """Process a frame's answer and its time; return what to say now, if anything."""
         if place != UNKNOWN:
             self._held = self._held + 1 if place == self._candidate else 1
             self._candidate = place
@@ -44,30 +44,30 @@ class Announcer:
 
 
 class Voice:
-    """Says sentences with espeak-ng, one after the other.
+    """Speaks sentences with espeak-ng, one after the other.
 
     Raises
     ------
     AppError
-        The program is not there.
+        The program is not installed.
     """
 
     def __init__(self) -> None:
         program = shutil.which("espeak-ng")
         if program is None:
             raise AppError(
-                "nothing to speak with", where="--speak", expected="the program espeak-ng",
+                "no speech program", where="--speak", expected="the program espeak-ng",
                 hint="install it (Debian: apt-get install espeak-ng), or leave out --speak",
             )  # fmt: skip
         self._program = program
 
     def say(self, sentence: str) -> None:
-        """Say a sentence and wait until it is said.
+        """Speak a sentence and wait until it ends.
 
         Raises
         ------
         AppError
-            The program fails, for example for want of a sound card.
+            The program fails, for example without a sound card.
         """
         done = subprocess.run(
             [self._program, "--", sentence], capture_output=True, text=True, check=False
@@ -76,12 +76,12 @@ class Voice:
         # Without a sound card it complains, but ends as if all were well.
         if done.returncode or (said and "error" in said[-1].lower()):
             raise AppError(
-                "the voice failed", where=self._program,
+                "speech output failed", where=self._program,
                 got=said[-1] if said else f"exit status {done.returncode}",
-                hint="is there a sound card? leave out --speak to read only",
+                hint="check the sound card, or leave out --speak",
             )  # fmt: skip
 
 
 def spoken(place: str) -> str:
-    """Return a place's name as it is said: ``meeting_room2`` is "meeting room 2"."""
+    """Return a place's name as it is spoken: ``meeting_room2`` is "meeting room 2"."""
     return re.sub(r"(?<=\D)(\d+)$", r" \1", place.replace("_", " "))

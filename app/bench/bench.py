@@ -1,4 +1,4 @@
-"""Several timed runs of sequences, summed up."""
+"""Several timed runs of sequences, and their summary."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ACCURACY = ("ate_rmse_m", "rpe_trans_rmse_m", "rpe_rot_rmse_deg")
 def run_all(
     jobs: Sequence[BenchJob], repeats: int, advance: Callable[[int, int, str], None]
 ) -> list[list[BenchRun]]:
-    """Run each job so many times, one after the other; return the runs of each.
+    """Run each job `repeats` times, one after the other; return the runs of each.
 
     The repeats of a job are spread over the whole time, so that a busy spell of the machine does
     not fall on one job alone.
@@ -57,16 +57,16 @@ def bench_alone(job: BenchJob) -> BenchRun:
             return pool.submit(bench_once, job).result()
     except BrokenProcessPool as error:
         raise AppError(
-            "measuring was ended from outside",
+            "the benchmark process was killed",
             where=job.input.sequence,
-            expected="a run to its end",
-            got="a process that is gone",
-            hint="most likely memory ran out; close other programs, or measure less with --frames",
+            expected="a complete run",
+            got="a process that ended early",
+            hint="probably out of memory: close other programs, or use fewer --frames",
         ) from error
 
 
 def summarise(runs: Sequence[BenchRun], job: BenchJob) -> dict[str, Any]:
-    """Return the figures of the repeats of a job: medians over the repeats.
+    """Return the results of a job: medians over its repeats.
 
     `deterministic` says whether all repeats gave the same trajectory file to the byte; it is None
     for a single one.
@@ -103,7 +103,7 @@ def summarise(runs: Sequence[BenchRun], job: BenchJob) -> dict[str, Any]:
 
 
 def report(summaries: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Return what `bench --json` prints: figures, and where and when they were taken."""
+    """Return the output of `bench --json`: results, date and machine."""
     return {
         "schema": SCHEMA,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -118,7 +118,7 @@ def report(summaries: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
 
 def frame_times(runs: Sequence[BenchRun]) -> list[dict[str, list[float]]]:
-    """Return for each repeat the time and the memory of each frame, in their order."""
+    """Return the time and the memory of each frame, in order, for each repeat."""
     return [
         {
             "frame_ms": [round(value, 3) for value in run.frame_ms],
@@ -131,7 +131,7 @@ def frame_times(runs: Sequence[BenchRun]) -> list[dict[str, list[float]]]:
 
 
 def labelling_cost(summaries: Sequence[dict[str, Any]]) -> dict[str, float]:
-    """Return how much longer each sequence took with a model than without, as a share."""
+    """Return the extra time of each sequence with a model, as a share of that without."""
     without = {s["sequence"]: s["seconds_total"] for s in summaries if s["model"] is None}
     return {
         s["sequence"]: round(s["seconds_total"] / without[s["sequence"]] - 1, 4)

@@ -1,4 +1,4 @@
-"""Benchmark figures for people: a table, and a picture of time and memory over the run."""
+"""Benchmark results: a table, and a plot of time and memory over the run."""
 
 from __future__ import annotations
 
@@ -47,25 +47,25 @@ ROWS: tuple[tuple[str, Callable[[Summary], str]], ...] = (
     ("frames/s", lambda s: f"{s['fps']:.1f}"),
     ("frame, ms (median, p95)", lambda s: _times(s, "frame_ms")),
     ("  first, last tenth", lambda s: _growth(s, "frame_ms")),
-    ("  as processor time", lambda s: _times(s, "frame_cpu_ms")),
+    ("  CPU time", lambda s: _times(s, "frame_cpu_ms")),
     ("  first, last tenth", lambda s: _growth(s, "frame_cpu_ms")),
-    ("all processor time", lambda s: f"{s['cpu_ms_per_frame']:.1f} ms a frame"),
-    ("memory at most", lambda s: f"{s['peak_rss_mb']:.0f} MB"),
+    ("total CPU time", lambda s: f"{s['cpu_ms_per_frame']:.1f} ms per frame"),
+    ("peak memory", lambda s: f"{s['peak_rss_mb']:.0f} MB"),
     ("  first, last tenth", lambda s: _growth(s, "memory_mb")),
     ("ATE", _ate),
-    ("RPE a frame", _rpe),
-    ("not tracked", lambda s: f"{s['share_lost']:.1%}"),
-    ("same bytes each time", _same),
+    ("RPE per frame", _rpe),
+    ("frames not tracked", lambda s: f"{s['share_lost']:.1%}"),
+    ("identical trajectories", _same),
 )
 
 _LEGEND = (
-    "frame: features and tracking, what a camera waits for; tenths: of the sequence, as medians; "
-    "stages run beside each other, so that their times do not add up to a frame's"
+    "frame: features and tracking; first, last tenth: medians over these parts of the sequence; "
+    "stages run in parallel, so their times do not add up to the time of a frame"
 )
 
 
 def table(summaries: Sequence[Summary], cost: Mapping[str, float]) -> Table:
-    """Return a table with a column for each sequence, with its figures and its stages."""
+    """Return a table with a column for each sequence: its results and the times of its stages."""
     names = (str(s["sequence"]) for s in summaries)
     shown = Table("", *names, box=None, padding=(0, 2, 0, 0), caption=_LEGEND)
     shown.caption_justify = "left"
@@ -73,7 +73,7 @@ def table(summaries: Sequence[Summary], cost: Mapping[str, float]) -> Table:
         shown.add_row(title, *(cell(s) for s in summaries))
     if cost:
         costs = [f"{cost[s['sequence']]:+.1%}" if s["model"] else "" for s in summaries]
-        shown.add_row("labelling costs", *costs)
+        shown.add_row("cost of labelling", *costs)
     shown.add_row()
     shown.add_row("stages, ms (median, p95)", style="dim")
     stages = dict.fromkeys(stage for s in summaries for stage in s["stage_ms"])
@@ -83,7 +83,7 @@ def table(summaries: Sequence[Summary], cost: Mapping[str, float]) -> Table:
 
 
 def draw(path: Path, runs: Sequence[BenchRun]) -> None:
-    """Draw frame time and memory against the frame's number, a line for each repeat."""
+    """Plot frame time and memory over the frame number, a line for each repeat."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(10, 6), layout="constrained")
@@ -99,7 +99,7 @@ def draw(path: Path, runs: Sequence[BenchRun]) -> None:
     top = 1.3 * max(float(np.percentile(run.frame_ms, 99)) for run in runs)
     times.set(
         ylabel="features + tracking (ms)", ylim=(0, top),
-        title=f"{runs[0].name}: time and memory by frame, with running medians",
+        title=f"{runs[0].name}: time (with running median) and memory per frame",
     )  # fmt: skip
     memory.set(ylabel="resident memory (MB)", ylim=(0, None), xlabel="frame")
     if len(runs) > 1:
@@ -113,7 +113,7 @@ def _stage(figures: Mapping[str, float] | None) -> str:
 
 
 def _running_median(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the median of each value's surroundings, a fortieth of all wide."""
+    """Return the running median of values, over a window of a fortieth of them."""
     from scipy.ndimage import median_filter
 
     return np.asarray(median_filter(values, max(3, len(values) // 40), mode="nearest"))

@@ -1,4 +1,4 @@
-"""One timed run of a sequence, in a process of its own."""
+"""One timed run of a sequence, in a separate process."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FRAME_STAGES = ("features", "track")
 
 @dataclass(frozen=True, slots=True)
 class BenchJob:
-    """What is run: a sequence once or `laps` times there and back, with a place model or none."""
+    """A run to measure: a sequence, played once or `laps` times forward and backward."""
 
     input: InputOptions
     settings: AppSettings
@@ -30,7 +30,7 @@ class BenchJob:
 
 @dataclass(frozen=True, slots=True)
 class BenchRun:
-    """What one run took and found.
+    """Time, memory and results of one run.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class BenchRun:
 
 @dataclass
 class _Watch:
-    """Takes the time and the memory after each frame."""
+    """Records time and memory after each frame."""
 
     times_s: list[float] = field(default_factory=lambda: [time.perf_counter()])
     memory_mb: list[float] = field(default_factory=list)
@@ -78,7 +78,7 @@ class _Watch:
 
 
 def bench_once(job: BenchJob) -> BenchRun:
-    """Run a sequence once, without a viewer or a recording, and tell what it took.
+    """Run a sequence once, without a viewer or a recording, and return what it took.
 
     Raises
     ------

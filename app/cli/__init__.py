@@ -1,1 +1,1 @@
-"""The command line: where it starts, the shared flags, and a file for each subcommand."""
+"""The command line: entry point, shared flags, and a file for each subcommand."""

@@ -91,7 +91,7 @@ for _command in (
     bench,
     config,
 ):
-    # A negative coordinate is no flag.
+    # A negative coordinate is not a flag.
     context = {"ignore_unknown_options": True} if _command is route else None
     cli.command(context_settings=context)(_guarded(_command))
 cli.command("eval")(_guarded(evaluate))

@@ -1,4 +1,4 @@
-"""Where the ``roomgraph`` command starts."""
+"""Entry point of the ``roomgraph`` command."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from roomgraph.app.allocation import keep_memory
 def main() -> None:
     """Prepare the process, then run the command."""
     keep_memory()
-    # At the end the system takes all memory back at once: in pieces takes Python half a second.
+    # At exit the system frees all memory at once; Python takes half a second to free each object.
     atexit.register(gc.freeze)
     from roomgraph.app.cli.command_line import cli
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def _listed(layout: str | None) -> str | None:
-    """Say which layouts there are, if that is asked for, and end."""
+    """Print all layouts and exit if the value is `list`."""
     if layout == "list":
         from roomgraph.datasets.readers.registry import READERS
 
@@ -37,12 +37,10 @@ OutputOption = Annotated[
         "-o",
         "--output",
         metavar="DIR",
-        help="Where to write; else results/NAME/TIME, with a link `latest`.",
+        help="Output folder. Default: results/NAME/TIME, with a link `latest`.",
     ),
 ]
-OverwriteOption = Annotated[
-    bool, typer.Option("--overwrite", help="Replace an output that is there already.")
-]
+OverwriteOption = Annotated[bool, typer.Option("--overwrite", help="Replace existing output.")]
 DatasetOption = Annotated[
     str | None,
     typer.Option(
@@ -50,39 +48,45 @@ DatasetOption = Annotated[
         metavar="LAYOUT",
         callback=_listed,
         is_eager=True,
-        help="Layout of its files, guessed if left out; `list` says which there are.",
+        help="Layout of the dataset; detected if left out. `list` prints all layouts.",
     ),
 ]
 CameraOption = Annotated[
     Path | None,
-    typer.Option("--camera", metavar="JSON", help="Camera file in place of the sequence's own."),
+    typer.Option("--camera", metavar="JSON", help="Camera file that replaces the sequence's own."),
 ]
 DepthScaleOption = Annotated[
     float | None,
-    typer.Option("--depth-scale", metavar="N", min=1e-3, help="Raw depth units a metre."),
+    typer.Option("--depth-scale", metavar="N", min=1e-3, help="Raw depth units per metre."),
 ]
 ModelOption = Annotated[
     Path | None,
-    typer.Option("--model", metavar="DIR", help="Place model from `roomgraph train`."),
+    typer.Option("--model", metavar="DIR", help="Folder of a place model."),
 ]
 ConfigOption = Annotated[
     Path | None,
-    typer.Option("--config", metavar="TOML", help="Settings, as `roomgraph config` prints them."),
+    typer.Option(
+        "--config", metavar="TOML", help="Settings file, in the format of `roomgraph config`."
+    ),
 ]
-StartOption = Annotated[int, typer.Option("--start", metavar="N", min=0, help="First frame.")]
+StartOption = Annotated[
+    int, typer.Option("--start", metavar="N", min=0, help="Number of the first frame.")
+]
 FramesOption = Annotated[
     int | None,
-    typer.Option("--frames", metavar="N", min=1, help="Frames at most.", show_default="all"),
+    typer.Option(
+        "--frames", metavar="N", min=1, help="Maximum number of frames.", show_default="all"
+    ),
 ]
 StrideOption = Annotated[
-    int, typer.Option("--stride", metavar="N", min=1, help="Every n-th frame.")
+    int, typer.Option("--stride", metavar="N", min=1, help="Use every N-th frame.")
 ]
 MaxDepthOption = Annotated[
     float | None,
-    typer.Option("--max-depth", metavar="M", min=0.1, help="Ignore readings beyond, metres."),
+    typer.Option("--max-depth", metavar="M", min=0.1, help="Ignore depth beyond M metres."),
 ]
 VisualizeOption = Annotated[
-    bool, typer.Option("-v", "--visualize", help="Watch the run live in Rerun.")
+    bool, typer.Option("-v", "--visualize", help="Show the run live in Rerun.")
 ]
 SaveRrdOption = Annotated[
     bool, typer.Option("--save-rrd/--no-rrd", help="Write recording.rrd for Rerun.")
@@ -92,25 +96,25 @@ ReportOption = Annotated[
 ]
 PresetOption = Annotated[
     str | None,
-    typer.Option("--preset", metavar="NAME", help="best, or paper: as published. [default: best]"),
+    typer.Option("--preset", metavar="NAME", help="best or paper (as published). [default: best]"),
 ]
 DescriptorOption = Annotated[
     str | None,
-    typer.Option("--descriptor", metavar="NAME", help="How images become vectors: fisher, words."),
+    typer.Option("--descriptor", metavar="NAME", help="Image descriptor: fisher or words."),
 ]
 ClassifierOption = Annotated[
     str | None,
-    typer.Option("--classifier", metavar="NAME", help="What learns from them: linear_svm."),
+    typer.Option("--classifier", metavar="NAME", help="Classifier: linear_svm."),
 ]
 SeedOption = Annotated[
     int | None,
-    typer.Option("--seed", metavar="N", min=0, help="Of all random choices.", show_default="0"),
+    typer.Option(
+        "--seed", metavar="N", min=0, help="Seed of all random choices.", show_default="0"
+    ),
 ]
-JsonOption = Annotated[
-    bool, typer.Option("--json", help="Print JSON, and nothing else, on standard output.")
-]
-QuietOption = Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")]
-VerboseOption = Annotated[bool, typer.Option("--verbose", help="Say what is going on inside.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print only JSON on standard output.")]
+QuietOption = Annotated[bool, typer.Option("--quiet", help="Print only errors.")]
+VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print log messages.")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +129,7 @@ class InputFlags:
     stride: StrideOption = 1
 
     def of(self, sequence: Path) -> InputOptions:
-        """Return how to open this sequence."""
+        """Return the options to open a sequence with."""
         from roomgraph.app.storage.input import InputOptions
 
         return InputOptions(
@@ -143,7 +147,7 @@ class SettingFlags:
     seed: SeedOption = None
 
     def load(self) -> AppSettings:
-        """Return the settings of the file under those given as flags."""
+        """Return the settings of the file; flags take precedence."""
         from roomgraph.app.settings import load_settings
 
         return load_settings(self.config, {"seed": self.seed, "slam.max_depth_m": self.max_depth})
@@ -151,21 +155,21 @@ class SettingFlags:
 
 @dataclass(frozen=True, slots=True)
 class RecipeFlags:
-    """What a place model is made of."""
+    """Preset, descriptor and classifier of a place model."""
 
     preset: PresetOption = None
     descriptor: DescriptorOption = None
     classifier: ClassifierOption = None
 
     def recipe(self) -> Recipe:
-        """Return the names that were given."""
+        """Return the names given as flags."""
         from roomgraph.app.learning.training import Recipe
 
         return Recipe(self.preset, self.descriptor, self.classifier)
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command the fields of its parameters that are dataclasses as flags of their own."""
+    """Turn the fields of a command's dataclass parameters into flags of the command."""
     own = inspect.signature(command).parameters.values()
     hints = get_type_hints(command, include_extras=True)
     groups = {p.name: hints[p.name] for p in own if is_dataclass(hints[p.name])}

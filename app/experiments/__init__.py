@@ -1,1 +1,1 @@
-"""The paper's experiments, each from one command."""
+"""The experiments of the paper."""

@@ -1,4 +1,4 @@
-"""The images of the experiments as the classifier sees them."""
+"""The images of the experiments as input of the classifier."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ TURNED = 2500
 
 
 class Describer:
-    """Turns images into what a classifier sees; the descriptor is learned beforehand.
+    """Turns images into vectors for a classifier; the descriptor is trained beforehand.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Describer:
         self.training = settings.semantics.training
         self.descriptor = self.training.make_descriptor(settings.slam.features)
         self.terminal = terminal
-        images = self.prepare(examples, "Learning the descriptor", to_fit=True)
+        images = self.prepare(examples, "Training the descriptor", to_fit=True)
         self.model = learn(images, self.descriptor, self.training, settings.seed)
 
     def prepare(
@@ -67,7 +67,7 @@ class Describer:
         return [image for image in found if image is not None]
 
     def vectors(self, images: Sequence[Prepared]) -> NDArray[Any]:
-        """Return what a classifier sees (N, D); zeros where there is too little to see."""
+        """Return vectors (N, D) for a classifier; zeros for images with too few features."""
         found = vectors_of(
             self.descriptor, [image.content for image in images], self.training.threads
         )
@@ -89,7 +89,7 @@ class Describer:
         )  # fmt: skip
 
     def predictions(self, model: PlaceModel, images: Sequence[Prepared]) -> list[PlacePrediction]:
-        """Return what each image alone looks like."""
+        """Return the prediction for each single image."""
         with ThreadPoolExecutor(self.training.threads) as pool:
             return list(pool.map(lambda image: self._prediction(model, image), images))
 
@@ -109,7 +109,7 @@ class Describer:
 
 @dataclass(frozen=True, slots=True)
 class Collection:
-    """Images, the walk of each, what a classifier sees of them (N, D), and that, unfitted."""
+    """Images, their walks, their vectors (N, D), and an unfitted classifier."""
 
     images: list[Prepared]
     walks: list[Walk]
@@ -117,7 +117,7 @@ class Collection:
     classifier: PlaceClassifier
 
     def evaluation_set(self) -> EvaluationSet:
-        """Return the images as the experiments take them.
+        """Return the images as an evaluation set.
 
         The vectors of few images are turned onto the axes that they span, which changes no product
         of two and makes them shorter.
@@ -149,7 +149,7 @@ class Collection:
         )
 
     def _along(self, visits: NDArray[np.str_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return order and stretches where the same walk was taken in every light, else nothing."""
+        """Return order and stretches if every light has the same walk; else empty."""
         walks = np.array([id(walk) for walk in self.walks])
         if len({walk.building for walk in self.walks}) == len(np.unique(walks)):
             return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.intp)

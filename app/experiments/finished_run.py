@@ -1,4 +1,4 @@
-"""What a whole run along a route makes of it: both layers, rooms and loops included."""
+"""Results of a complete run along a route, with rooms and loop closures."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FINISHED, FINISHED_FRAMES = "nodes, finished run", "frames, finished run"
 
 @dataclass(frozen=True, slots=True)
 class FinishedRun:
-    """The labels of a finished run's nodes and frames, its rooms, and how many were told apart."""
+    """Labels of a run's nodes and frames, its number of rooms, and of separated rooms."""
 
     nodes: SplitResult
     frames: SplitResult
@@ -35,7 +35,7 @@ class FinishedRun:
 def finished_run(
     model: PlaceModel, root: Path, settings: AppSettings, terminal: Terminal
 ) -> FinishedRun:
-    """Map and label a sequence as ``roomgraph run`` does, and compare its graph with the truth.
+    """Map and label a sequence like ``roomgraph run``, and compare it with the ground truth.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def finished_run(
     sequence = open_sequence(root)
     places = sequence.places
     if places is None:
-        raise RoomgraphError("the sequence does not say which rooms it shows", where=root)
+        raise RoomgraphError("the sequence has no room labels", where=root)
     with TemporaryDirectory() as scratch:
         folder = make_run_folder(Path(scratch) / "run", sequence.name, overwrite=False)
         nothing = OutputOptions(live=False, save=False, report=False)
@@ -62,7 +62,7 @@ def finished_run(
 
 
 def _result(row: str, pairs: Sequence[tuple[tuple[str, str] | None, str]]) -> SplitResult:
-    """Return a result of what is known to lie in a room: its true label and instance, its label."""
+    """Return the result for items in known rooms: true label and instance, predicted label."""
     known = [(truth[0], label) for truth, label in pairs if truth is not None]
     return SplitResult(
         row, np.array([truth for truth, _ in known]), np.array([x for _, x in known])

@@ -1,4 +1,4 @@
-"""What the experiments work on: walks, described, and what they are described by."""
+"""The data of an experiment: walks with described images, and the describer."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from roomgraph.app.settings import AppSettings
 from roomgraph.semantics.evaluation.splits import EvaluationSet, SplitResult
 from roomgraph.semantics.recognition.model import PlaceModel
 
-DESCRIPTOR_NOTE = "The descriptor is learned from images that are never tested: {}."
+DESCRIPTOR_NOTE = "The descriptor is trained on images that are not used for testing: {}."
 
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """What an experiment works on."""
+    """The data of an experiment."""
 
     describer: Describer
     walks: list[Walk]
@@ -47,7 +47,7 @@ class Material:
         return tuple(done)
 
     def model_without(self, building: str) -> PlaceModel:
-        """Return a model of all buildings but one; the descriptor is that of the evaluation set."""
+        """Return a model trained on all buildings but one, with the descriptor of the data."""
         kept = [i for i, walk in enumerate(self.collection.walks) if walk.building != building]
         return self.describer.relearned(
             [self.collection.images[i] for i in kept], self.collection.vectors[kept],
@@ -62,7 +62,7 @@ def gather(
     seeds: Sequence[int],
     stride: int,
 ) -> Material:
-    """Return the user's data, or rendered buildings, described as the settings say.
+    """Return the user's data or rendered buildings, described with the given settings.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def gather(
     if data:
         walks = data_walks(data)
         learned = [e for walk in walks for e in walk.examples[::STRIDE]]
-        note = "The descriptor is learned from a quarter of all images, without their labels."
+        note = "The descriptor is trained on a quarter of all images, without their labels."
     else:
         walks = rendered_walks(seeds, terminal)
         aside = rendered_walks((DESCRIPTOR_SEED,), terminal)

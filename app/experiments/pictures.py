@@ -1,4 +1,4 @@
-"""The picture of an experiment."""
+"""The plot of an experiment."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def draw(
     confusion: LabelAccuracy,
     open_set: OpenSetEvaluation | None,
 ) -> None:
-    """Draw the rows of an experiment, its confusion, and what its probabilities are worth.
+    """Plot the accuracies of an experiment, its confusion matrix, and its calibration.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def _draw_rows(axis: Any, content: dict[str, Any]) -> None:
             color="white" if is_long else "0.2", fontsize=8,
         )  # fmt: skip
     middle, half = (len(rows) - 1) / 2, max(len(rows), _FEWEST_BARS) / 2
-    axis.set(xlim=(0, 104), xlabel="images right (%)", ylim=(middle - half, middle + half))
+    axis.set(xlim=(0, 104), xlabel="accuracy (%)", ylim=(middle - half, middle + half))
     axis.set_title(f"{content['protocol']}, {content['recipe']}", loc="left")
     axis.spines[["top", "right"]].set_visible(False)
 
@@ -88,7 +88,7 @@ def _draw_confusion(axis: Any, accuracy: LabelAccuracy) -> None:
             axis.text(
                 j, i, f"{100 * value:.0f}", ha="center", va="center", color=colour, fontsize=8
             )
-    axis.set(xlabel="found", ylabel="true")
+    axis.set(xlabel="predicted", ylabel="true")
     axis.set_title("confusion (%)", loc="left")
 
 
@@ -99,8 +99,8 @@ def _draw_reliability(axis: Any, open_set: OpenSetEvaluation, content: dict[str,
     axis.plot(table[:, 0], table[:, 1], "o-", color="#e15759")
     for x, y, count in table:
         axis.annotate(f"{count:.0f}", (x, y), (4, -10), textcoords="offset points", fontsize=7)
-    axis.set(xlim=(0, 1), ylim=(0, 1), xlabel="probability of the label", ylabel="share right")
-    axis.set_title(f"buildings never seen: ECE {content['ece']:.3f}", loc="left")
+    axis.set(xlim=(0, 1), ylim=(0, 1), xlabel="probability of the label", ylabel="accuracy")
+    axis.set_title(f"unseen buildings: ECE {content['ece']:.3f}", loc="left")
     axis.spines[["top", "right"]].set_visible(False)
 
 
@@ -112,10 +112,12 @@ def _draw_rejection(axis: Any, open_set: OpenSetEvaluation, content: dict[str, A
         label = f"{name.replace('_', ' ')} {content['unknown_auroc'].get(name, float('nan')):.2f}"
         axis.plot(kept, refused, label=label)
     curve = rejection_curve(*open_set.confidence)
-    axis.plot(curve[:, 0], curve[:, 1], color="black", ls="--", label="known: share right")
-    axis.set(
-        xlim=(0, 1), ylim=(0, 1.02), xlabel="known places kept", ylabel="places never seen refused"
+    axis.plot(
+        curve[:, 0], curve[:, 1], color="black", ls="--", label="accuracy of known places kept"
     )
-    axis.legend(frameon=False, fontsize=7, loc="lower left", title="never seen, AUROC")
+    axis.set(
+        xlim=(0, 1), ylim=(0, 1.02), xlabel="known places kept", ylabel="unknown places rejected"
+    )
+    axis.legend(frameon=False, fontsize=7, loc="lower left", title="unknown, AUROC")
     axis.set_title("unknown", loc="left")
     axis.spines[["top", "right"]].set_visible(False)

@@ -1,4 +1,4 @@
-"""The paper's experiments, each from one command."""
+"""The experiments of the paper."""
 
 from __future__ import annotations
 
@@ -83,24 +83,26 @@ def _recognition(m: Material) -> ProtocolReport:
     aside = (last, splits.AWAY, splits.BY_VISIBLE_ROOM)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
     notes = [
-        "Ten folds. In each light a visit to a room is held out whole; fused, a room is held out "
-        "in all lights at once. A class with a single visit is cut into blocks of its frames.",
-        f"The row '{last}' deals single frames, as the paper does: not counted in the headline.",
+        "Ten folds. In each light, whole visits to rooms are held out; fused, rooms are held out "
+        "in all lights at once. A class with a single visit is split into blocks of its frames.",
+        f"The row '{last}' assigns single frames to folds, as the paper does. It does not "
+        "count in the headline.",
     ]
     if knows_doorways:
         notes.append(
-            f"The row '{splits.AWAY}' is a part of the row 'fused': an image bears the label of "
-            "where it was taken, and near a doorway it shows the next room. Not counted either."
+            f"The row '{splits.AWAY}' is a part of the row 'fused': an image is labelled with the "
+            "room it was taken in, but near a doorway it shows the next room. It does not count "
+            "either."
         )
     figures = {}
     if knows_visible_rooms:
         hardly = float(np.mean(m.evaluation_set.own_share < splits.HARDLY))
         figures = {"hardly_show_their_room": round(hardly, 4)}
         notes.append(
-            f"Of the images, {hardly:.1%} show nothing of the room they were taken in, as the "
-            "depth and the floor plan tell: there the label cannot be seen. In the row "
-            f"'{splits.BY_VISIBLE_ROOM}' an image bears the label of the room that "
-            "most of it shows, and that room is held out. Not counted either."
+            f"According to depth and floor plan, {hardly:.1%} of the images show nothing of the "
+            "room they were taken in: their label cannot be seen. In the row "
+            f"'{splits.BY_VISIBLE_ROOM}' an image is labelled with the room that most of it "
+            "shows, and that room is held out. It does not count either."
         )
     return ProtocolReport(
         data=m.data, results=found, notes=(*notes, *m.notes), headline=rows, figures=figures
@@ -113,7 +115,7 @@ def _light(m: Material) -> ProtocolReport:
         set(m.evaluation_set.buildings.tolist()),
     )
     if len(lights) < 2:
-        raise AppError("one light only", expected="the same rooms in two lights, a folder each")
+        raise AppError("only one light", expected="the same rooms in two lights, a folder for each")
     if len(buildings) == len(lights):
         # Folders of the user: each is a light, and all show one building.
         same = np.full(len(m.evaluation_set.labels), "data")
@@ -123,16 +125,16 @@ def _light(m: Material) -> ProtocolReport:
     count = len(lights) * len(buildings)
     total = count * (len(lights) - 1) * 3 + count * 2 if split else count * (len(lights) - 1)
     found = m.watched("Across light", splits.light(m.evaluation_set), total)
-    notes = ["Trained in one light and tested in another, building by building (paper, Table 2)."]
+    notes = ["Trained in one light and tested in another, in each building (paper, Table 2)."]
     if split:
         notes.append(
-            "The same walk is taken in each light, as in the paper. Every fourth image is learned "
-            "from, and those halfway between are tested: 0.3 m or 16 degrees away."
+            "Each light has the same walk, as in the paper. Every fourth image is for training, "
+            "and those halfway between, 0.3 m or 16 degrees away, are for testing."
         )
         notes.append(
-            "Other stretches, not counted in the headline: alternate stretches of 2.5 m or a third "
-            "of a turn are learned from and tested, so that no view recurs; in the same light as "
-            "well, to tell what of the loss is the light's."
+            "Other stretches, which do not count in the headline: stretches of 2.5 m or a third of "
+            "a turn are used alternately for training and testing, so that no view recurs. The "
+            "same light is tested too, to find which part of the loss is due to the light."
         )
     aside = (splits.STRETCHES, splits.STRETCHES_SAME_LIGHT)
     rows = tuple(dict.fromkeys(t.row for t in found if t.row not in aside))
@@ -142,7 +144,7 @@ def _light(m: Material) -> ProtocolReport:
 def _building(m: Material) -> ProtocolReport:
     buildings = set(m.evaluation_set.buildings.tolist())
     if len(buildings) < 2:
-        raise AppError("one building only", expected="two folders or more with --data")
+        raise AppError("only one building", expected="two or more folders with --data")
     found = m.watched(
         "Other buildings",
         splits.building(m.evaluation_set, m.settings.seed, PERMUTATIONS),
@@ -155,10 +157,10 @@ def _building(m: Material) -> ProtocolReport:
                 m.evaluation_set, lambda done, total: advance(done, total, "")
             )
     notes = (
-        f"{PERMUTATIONS} permutations: half of the buildings and half of their images are learned, "
-        "the other buildings tested, then back (the paper's Fig. 15).",
-        "Probabilities: each building left out in turn. Unknown: each kind of place left out of "
-        "training, a building never seen tested.",
+        f"{PERMUTATIONS} permutations: trained on half of the images of half of the buildings, "
+        "tested on the other buildings, then the other way round (the paper's Fig. 15).",
+        "Probabilities: each building is left out in turn. Unknown: each kind of place is left out "
+        "of training, and an unseen building is tested.",
         *m.notes,
     )
     return ProtocolReport(data=m.data, results=found, notes=notes, open_set=open_set)
@@ -167,7 +169,7 @@ def _building(m: Material) -> ProtocolReport:
 def _route(m: Material) -> ProtocolReport:
     names = list(dict.fromkeys(walk.building for walk in m.walks))
     if len(names) < 2:
-        raise AppError("one building only", expected="folders to learn from, then the route")
+        raise AppError("only one building", expected="folders to train on, then the route")
     routes = [walk for walk in m.walks if walk.light == "day"] or m.walks[-1:]
     found: list[SplitResult] = []
     runs: list[FinishedRun] = []
@@ -184,16 +186,17 @@ def _route(m: Material) -> ProtocolReport:
         try:
             runs.append(finished_run(model, walk.root, m.settings, m.terminal))
         except RoomgraphError as error:
-            m.terminal.warn(f"not mapped: {error}")
+            m.terminal.warn(f"route not mapped: {error}")
     found += [result for run in runs for result in (run.nodes, run.frames)]
     notes = [
-        "Each route is labelled by a model of the other buildings. A node is dropped each metre; "
-        "its label is its frame's own, or that of the vote around it (the paper's Fig. 16).",
-        "Filter: a hidden Markov model with the delay of the vote, as by default. Smoothed: "
-        "beliefs propagated over the finished graph.",
+        "Each route is labelled by a model of the other buildings. A node is added each metre; "
+        "its label is that of its own frame, or of the vote of the frames around it (the paper's "
+        "Fig. 16).",
+        "Filter: a hidden Markov model with the delay of the vote (the default). Smoothed: beliefs "
+        "propagated over the finished graph.",
     ]
     if novel:
-        notes.append(f"Nobody taught the model what this is: {', '.join(sorted(novel))}.")
+        notes.append(f"Not in the training data of the model: {', '.join(sorted(novel))}.")
     figures = {}
     if runs:
         figures = {
@@ -201,9 +204,9 @@ def _route(m: Material) -> ProtocolReport:
             "rooms_told_apart": sum(run.told_apart for run in runs),
         }
         notes.append(
-            "Finished run: the graph that `roomgraph run` writes of the route, mapped by the low "
-            "layer; only keyframes are looked at, and nodes and frames in a room share the label "
-            f"that its frames voted for. Rooms told apart: {figures['rooms_told_apart']} of "
+            "Finished run: the graph that `roomgraph run` writes for the route. Only keyframes are "
+            "classified, and all nodes and frames of a room get the label that its frames voted "
+            f"for. Separated rooms: {figures['rooms_told_apart']} of "
             f"{figures['rooms']}."
         )
     headline = (FINISHED,) if runs else ("nodes, vote",)
@@ -222,7 +225,7 @@ PROTOCOLS: dict[str, Callable[[Material], ProtocolReport]] = {
 
 
 def _train_and_test(settings: AppSettings, root: Path, terminal: Terminal) -> ProtocolReport:
-    """Learn from the folder ``train``, label the folder ``test``."""
+    """Train on the folder ``train``, test on the folder ``test``."""
     train, test = (data_walks([root / part])[0].examples for part in ("train", "test"))
     describer = Describer(settings, train, terminal)
     images = describer.prepare(test, "Describing test images")
@@ -233,7 +236,7 @@ def _train_and_test(settings: AppSettings, root: Path, terminal: Terminal) -> Pr
     results = [SplitResult("train to test, fifths", truth[part], found[part]) for part in parts]
     accuracy: Any = describer.model.training["cross_validated_accuracy"]
     notes = (
-        f"Learned from {root.name}/train alone, tested on {root.name}/test; std over five parts.",
+        f"Trained on {root.name}/train only, tested on {root.name}/test; std over five parts.",
         f"Cross-validated on the training images: {accuracy:.1%}.",
     )
     return ProtocolReport(data=(str(root),), results=tuple(results), notes=notes)

@@ -1,4 +1,4 @@
-"""What an experiment found, and its tables."""
+"""The results of an experiment, and its tables."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from roomgraph.semantics.evaluation.splits import SplitResult, per_class
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProtocolReport:
-    """What an experiment found.
+    """The results of an experiment.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class ProtocolReport:
 
     @property
     def confusion(self) -> LabelAccuracy:
-        """True against found labels of the headline rows."""
+        """Confusion of true and predicted labels in the headline rows."""
         return compare_labels(
             (str(a), str(b))
             for result in self.counted
@@ -98,7 +98,7 @@ class ProtocolReport:
 
 
 def open_set_figures(open_set: OpenSetEvaluation) -> dict[str, Any]:
-    """Return the figures of the probabilities."""
+    """Return the metrics of the probabilities."""
     confidence, right = open_set.confidence
     index = np.array([open_set.classes.index(str(name)) for name in open_set.truth])
     areas = {k: auroc(open_set.known[k], v) for k, v in open_set.novel.items() if len(v)}
@@ -125,8 +125,8 @@ def markdown(content: dict[str, Any]) -> str:
     """Return the report as Markdown."""
     lines = [
         f"# {content['protocol']}, {content['recipe']}", "",
-        f"On {', '.join(content['data'])}.", "",
-        "| | accuracy | std | mean per class | trainings | images tested |",
+        f"Data: {', '.join(content['data'])}.", "",
+        "| | accuracy | std | mean per class | trainings | test images |",
         "| --- | ---: | ---: | ---: | ---: | ---: |",
     ]  # fmt: skip
     for row in content["rows"]:
@@ -134,13 +134,13 @@ def markdown(content: dict[str, Any]) -> str:
             f"| {row['name']} | {row['accuracy_mean']:.1%} | {row['accuracy_std']:.1%} | "
             f"{row['class_mean']:.1%} | {row['results']} | {row['images']} |"
         )
-    lines += ["", "| class | right |", "| --- | ---: |"]
+    lines += ["", "| class | accuracy |", "| --- | ---: |"]
     lines += [f"| {name} | {share:.1%} |" for name, share in content["per_class"].items()]
     if "ece" in content:
         lines += [
             "", f"Calibration error (ECE) {content['ece']:.3f}, "
-            f"Brier score {content['brier']:.3f}; a kind of place never seen stands out with "
-            f"AUROC {content['unknown_auroc_mean']:.2f}.",
+            f"Brier score {content['brier']:.3f}; AUROC of the detection of unknown kinds of place "
+            f"{content['unknown_auroc_mean']:.2f}.",
         ]  # fmt: skip
     lines += ["", *(f"- {note}" for note in content["notes"])]
     return "\n".join(lines) + "\n"

@@ -1,4 +1,4 @@
-"""Where the images of an experiment were taken, and what they show."""
+"""Positions of the images of an experiment, and the rooms that they show."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _UNKNOWN_STEP_M = 0.1
 
 @dataclass(frozen=True, slots=True)
 class VisibleRoom:
-    """What an image shows.
+    """The room that an image shows.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ def positions_of(examples: Sequence[Example]) -> NDArray[np.float64] | None:
 
 
 def route_positions(examples: Sequence[Example]) -> NDArray[np.float64]:
-    """Return the same, and small steps along a line where it is not known."""
+    """Return positions like `positions_of`; small steps along a line where unknown."""
     positions = positions_of(examples)
     if positions is not None:
         return positions
@@ -61,7 +61,7 @@ def route_positions(examples: Sequence[Example]) -> NDArray[np.float64]:
 
 
 def doorway_distances(walks: Sequence[Walk], examples: Sequence[Example]) -> NDArray[np.float64]:
-    """Return the way (N,) from each image to the nearest change of room on its walk, metres.
+    """Return the distance (N,) along the walk from each image to the nearest room change, metres.
 
     Empty where a walk has no poses.
     """
@@ -76,7 +76,7 @@ def doorway_distances(walks: Sequence[Walk], examples: Sequence[Example]) -> NDA
 
 
 def visible_rooms(walks: Sequence[Walk], examples: Sequence[Example]) -> list[VisibleRoom]:
-    """Return what each image shows; nothing where a walk has no poses or no floor plan."""
+    """Return the room that each image shows; empty without poses or floor plan."""
     found: dict[tuple[str, float], VisibleRoom] = {}
     wanted = {_key(example) for example in examples}
     for walk in walks:
@@ -129,7 +129,7 @@ def _visible_room(shares: NDArray[np.float64], plan: FloorPlanTruth, place: str)
 
 
 def _floor_points(frame: Frame, T_world_camera: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return where on the floor (N, 2) the surfaces lie that a frame shows, z being up."""
+    """Return positions on the floor plan (N, 2) of the surfaces in a frame."""
     depth = frame.depth[::_PIXEL_STEP, ::_PIXEL_STEP]
     row, column = np.nonzero(depth)
     pixels = _PIXEL_STEP * np.column_stack([column, row]).astype(np.float64)
@@ -138,7 +138,7 @@ def _floor_points(frame: Frame, T_world_camera: NDArray[np.float64]) -> NDArray[
 
 
 def _to_changes(positions: NDArray[np.float64], groups: NDArray[np.str_]) -> NDArray[np.float64]:
-    """Return the way (N,) along a walk to where the group changes, infinite if it never does."""
+    """Return the distance (N,) along a walk to the next group change; infinite without one."""
     along = arc_lengths(positions)
     changes = np.flatnonzero(groups[1:] != groups[:-1])
     borders = (along[changes] + along[changes + 1]) / 2

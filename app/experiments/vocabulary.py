@@ -1,4 +1,4 @@
-"""The experiment of the paper's Fig. 9: how many visual words, at what cost."""
+"""The experiment of the paper's Fig. 9: number of visual words and cost."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ BATCH = 1024
 
 @dataclass(frozen=True, slots=True)
 class Quantised:
-    """One vocabulary: how it was made, of how many vectors, how well it stands for the data.
+    """One vocabulary: its method, its size and its quality.
 
     `samples` is the shape of the descriptors; `accuracy` the share of their variance that their
     words account for.
@@ -52,12 +52,12 @@ class Quantised:
 
 
 def run_vocabulary(data: list[Path], terminal: Terminal) -> list[Quantised]:
-    """Learn vocabularies of several sizes by Neural Gas, k-means and mini-batch k-means."""
+    """Train vocabularies of several sizes by Neural Gas, k-means and mini-batch k-means."""
     descriptors = _descriptors(data, terminal)
     variance = float(descriptors.var(axis=0, dtype=np.float64).sum())
     found = []
     # One thread for all: threads that wait for others would be counted as CPU time.
-    with threadpool_limits(1), terminal.progress("Learning vocabularies") as advance:
+    with threadpool_limits(1), terminal.progress("Training vocabularies") as advance:
         methods = _methods()
         plan = [
             (number, seed, name)
@@ -109,10 +109,10 @@ def write_vocabulary(directory: Path, found: list[Quantised], data: list[Path]) 
             f"At {CHOSEN} vectors, of {count:,} descriptors of {length} numbers, Neural Gas takes "
             f"{slower:.2f} times as long as mini-batch k-means; its error is {worse:.3f} times "
             "that of k-means.",
-            "Accuracy: share of the descriptors' variance that their words account for, at "
+            "Accuracy: share of the variance of the descriptors that their words explain, at "
             f"{CHOSEN} Neural Gas vectors in the headline. Times: CPU seconds of one thread, "
-            f"median. Mini-batch k-means is scikit-learn's, {BATCH} samples a step, and stops "
-            "where it no longer gets better.",
+            f"median. Mini-batch k-means is scikit-learn's, {BATCH} samples per step, and stops "
+            "when it no longer improves.",
         ],
     }
     write_text(directory / f"{NAME}.json", json.dumps(content, indent=1) + "\n")
@@ -124,7 +124,7 @@ def write_vocabulary(directory: Path, found: list[Quantised], data: list[Path]) 
 def vocabulary_markdown(content: dict[str, Any]) -> str:
     """Return the table as Markdown."""
     lines = [
-        f"# {NAME}", "", f"On {', '.join(content['data'])}.", "",
+        f"# {NAME}", "", f"Data: {', '.join(content['data'])}.", "",
         "| vectors | method | accuracy | std | quantisation error | CPU s |",
         "| ---: | --- | ---: | ---: | ---: | ---: |",
     ]  # fmt: skip
@@ -152,7 +152,7 @@ def _descriptors(data: list[Path], terminal: Terminal) -> NDArray[np.float32]:
 
 
 def _methods() -> dict[str, Callable[[int, int], Callable[[NDArray[np.float32]], float]]]:
-    """Return what learns words and gives the mean squared error, by number and seed."""
+    """Return functions that train words and return their mean squared error."""
     from sklearn.cluster import KMeans, MiniBatchKMeans
 
     return {
@@ -197,7 +197,7 @@ def _draw(path: Path, rows: list[dict[str, Any]]) -> None:
             [100 * row["accuracy_std"] for row in own], fmt="o-", capsize=3, label=method,
         )  # fmt: skip
         times.plot(numbers, [row["cpu_s"] for row in own], "o-", label=method)
-    accuracy.set(xscale="log", xlabel="vectors", ylabel="variance accounted for (%)")
+    accuracy.set(xscale="log", xlabel="vectors", ylabel="explained variance (%)")
     times.set(xscale="log", yscale="log", xlabel="vectors", ylabel="CPU time (s)")
     for axis in (accuracy, times):
         axis.set_xticks(NUMBERS, [str(number) for number in NUMBERS])

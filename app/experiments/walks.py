@@ -31,7 +31,7 @@ class Walk:
 
     @property
     def root(self) -> Path:
-        """The sequence that the images are from; a lone photograph's file."""
+        """The sequence that the images are from; the file of a single photograph."""
         return Path(self.examples[0].session)
 
 
@@ -46,5 +46,5 @@ def rendered_walks(seeds: Sequence[int], terminal: Terminal) -> list[Walk]:
 
 
 def data_walks(roots: Sequence[Path]) -> list[Walk]:
-    """Return the user's folders or sequences, each a building and a light of its own."""
+    """Return the user's folders or sequences, each as a separate building and light."""
     return [Walk(root.name, root.name, labelled_examples(root)) for root in roots]

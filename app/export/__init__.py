@@ -1,1 +1,1 @@
-"""A run's products in the formats of other tools, a file for each kind of product."""
+"""Export of a run's outputs to formats of other tools, a file for each kind of output."""

@@ -78,4 +78,4 @@ def write_e57(folder: RunFolder, path: Path) -> Notes:
         file.close()
     names = read_labels(product(folder.labels)).names
     meanings = ", ".join(f"{i} {name}" for i, name in enumerate(names))
-    return (*notes, f"the intensity of a point is its label: {meanings}")
+    return (*notes, f"the intensity of a point is its label id: {meanings}")

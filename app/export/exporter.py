@@ -1,4 +1,4 @@
-"""What an export format is."""
+"""The interface of an export format."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Notes = tuple[str, ...]
 
 @dataclass(frozen=True, slots=True)
 class Exporter:
-    """A format that a product can be had in.
+    """A format to which an output of a run can be exported.
 
     Attributes
     ----------
@@ -47,14 +47,14 @@ def product(path: Path, hint: str | None = None) -> Path:
     """
     if not path.exists():
         raise AppError(
-            "the run lacks this product", where=path, expected="a finished run",
+            "the run has no such output", where=path, expected="a finished run",
             got="no such file", hint=hint,
         )  # fmt: skip
     return path
 
 
 def named(path: Path, *suffixes: str) -> Path:
-    """Return a path that ends as its format does: some writers go by that.
+    """Return a path with the extension of its format, which some writers require.
 
     Raises
     ------
@@ -63,14 +63,14 @@ def named(path: Path, *suffixes: str) -> Path:
     """
     if path.suffix not in suffixes:
         raise AppError(
-            "not the name of such a file", where=path,
+            "wrong file extension", where=path,
             expected=" or ".join(f"NAME{suffix}" for suffix in suffixes),
         )  # fmt: skip
     return path
 
 
 def missing_package(package: str) -> AppError:
-    """Return what to say where an optional package is not installed."""
+    """Return the error for an optional package that is not installed."""
     return AppError(
         f"the package {package} is not installed", where="roomgraph export",
         hint=f"install it with: pip install {package}",

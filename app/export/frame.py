@@ -14,7 +14,7 @@ _T_LEVEL_WORLD = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0
 
 
 def T_upright_world(folder: RunFolder) -> tuple[NDArray[np.float64], Notes]:
-    """Return the motion (4, 4) from the run's world to the map frame, and what to know of it."""
+    """Return the transform (4, 4) from the run's world to the map frame, and notes on it."""
     if folder.occupancy.exists():
         return read_occupancy(folder.occupancy).T_map_world, ()
-    return _T_LEVEL_WORLD, ("no floor was found: up is where the first camera's up was",)
+    return _T_LEVEL_WORLD, ("no floor was found: the up direction is that of the first camera",)

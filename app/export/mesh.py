@@ -56,7 +56,7 @@ def _mesh(folder: RunFolder, T_mesh_world: NDArray[np.float64]) -> Any:
     normals = read_normals(folder.map)
     if normals is None:
         raise AppError(
-            "the map has no normals to draw a surface by", where=folder.map,
+            "the map has no normals, which a mesh needs", where=folder.map,
             hint="map the sequence again with `roomgraph run`",
         )  # fmt: skip
     voxel_m = load_settings(
@@ -78,7 +78,7 @@ def _linear(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _matt(tree: dict[str, Any]) -> None:
-    """Give a glTF tree's meshes a matt material: without one, they shine like metal."""
+    """Give the meshes of a glTF tree a matt material; the default one shines like metal."""
     surface = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     tree["materials"] = [{"pbrMetallicRoughness": surface, "doubleSided": True}]
     for mesh in tree["meshes"]:

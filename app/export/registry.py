@@ -29,12 +29,13 @@ from roomgraph.app.storage.run_folder import RunFolder, refuse_existing
 EXPORTERS: dict[str, Exporter] = {
     "tum": Exporter("trajectory", "TUM: stamp, position, quaternion", "trajectory_export.tum",
                     write_tum),
-    "kitti": Exporter("trajectory", "KITTI: 3 x 4 matrices, and which frame each line is",
+    "kitti": Exporter("trajectory", "KITTI: 3 x 4 matrices, with a table of the frame of each line",
                       "trajectory.kitti", write_kitti, frames_beside),
-    "csv": Exporter("trajectory", "a table: every frame with its state, pose and label",
+    "csv": Exporter("trajectory", "CSV: every frame with its state, pose and label",
                     "trajectory.csv", write_csv),
-    "g2o": Exporter("pose graph", "g2o: keyframes and links", "pose_graph_export.g2o", write_g2o),
-    "ply": Exporter("cloud", "PLY: as map.ply", "map_export.ply", write_ply),
+    "g2o": Exporter("pose graph", "g2o: keyframes and constraints", "pose_graph_export.g2o",
+                    write_g2o),
+    "ply": Exporter("cloud", "PLY: a copy of map.ply", "map_export.ply", write_ply),
     "pcd": Exporter("cloud", "PCD, for PCL and Open3D", "map.pcd", write_pcd),
     "las": Exporter("cloud", "LAS 1.4 with labels, z up, for GIS tools", "map.las", write_las),
     "e57": Exporter("cloud", "E57, z up, for survey tools (pip install pye57)",
@@ -47,7 +48,7 @@ EXPORTERS: dict[str, Exporter] = {
     "graphml": Exporter("graph", "GraphML, for Gephi, yEd and networkx", "graph_export.graphml",
                         write_graphml),
     "dot": Exporter("graph", "DOT, for Graphviz", "graph.dot", write_dot),
-    "graph-csv": Exporter("graph", "two tables: nodes, and edges beside them", "graph_nodes.csv",
+    "graph-csv": Exporter("graph", "CSV: a table of nodes and a table of edges", "graph_nodes.csv",
                           write_csv_tables, edges_beside),
     "hydra": Exporter("graph", "Hydra's scene graph, z up (pip install spark-dsg)",
                       "scene_graph.json", write_hydra),
@@ -59,7 +60,7 @@ EXPORTERS: dict[str, Exporter] = {
 def export_run(
     folder: RunFolder, name: str, output: Path | None, overwrite: bool
 ) -> tuple[tuple[Path, ...], Notes]:
-    """Write a run's product in a format; return the files and what to know of them.
+    """Export an output of a run; return the files and notes on them.
 
     Raises
     ------
@@ -70,7 +71,7 @@ def export_run(
     if exporter is None:
         raise AppError(
             "no such format", where=name, expected=", ".join(EXPORTERS),
-            hint="`roomgraph export --list` says what each is",
+            hint="`roomgraph export --list` describes each",
         )  # fmt: skip
     path = output or folder.root / exporter.file_name
     files = (path, *exporter.beside(path))

@@ -53,8 +53,8 @@ def write_kitti(folder: RunFolder, path: Path) -> Notes:
     if not without:
         return ()
     return (
-        f"{len(without)} of {len(frames)} frames have no pose and so no line: {_ranges(without)}; "
-        f"{table.name} says which line each frame is",
+        f"{len(without)} of {len(frames)} frames have no pose and no line: {_ranges(without)}; "
+        f"{table.name} gives the line of each frame",
     )
 
 

@@ -1,1 +1,1 @@
-"""Place models: learned from labelled data, applied to images, taught by corrections."""
+"""Place models: trained on labelled data, applied to images, extended by corrections."""

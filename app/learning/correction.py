@@ -1,4 +1,4 @@
-"""A person's corrections of a run: `roomgraph label MODEL RUN --set office2=library`."""
+"""Corrections of a run by the user: `roomgraph label MODEL RUN --set office2=library`."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def parse_changes(texts: Sequence[str]) -> dict[str, str]:
         place, _, label = (part.strip() for part in text.partition("="))
         if not place or not label:
             raise AppError(
-                "correction not understood", where="--set", expected="PLACE=LABEL", got=repr(text)
+                "invalid correction", where="--set", expected="PLACE=LABEL", got=repr(text)
             )
         changes[place] = label
     return changes
@@ -70,7 +70,7 @@ def learn_from_run(
     seed: int,
     advance: Advance,
 ) -> PlaceModel:
-    """Return a model that has learned what the corrected places of a run look like.
+    """Return a model trained further on images of the corrected places of a run.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def learn_from_run(
 
 
 def frames_of_nodes(graph: SemanticGraph, told: Sequence[int], count: int) -> list[int]:
-    """Return at most `MOST_IMAGES` frames, of `count`, that are nearest to some of the nodes."""
+    """Return at most `MOST_IMAGES` of `count` frames, those nearest to the nodes `told`."""
     at = np.array([node.frame for node in graph.nodes])
     nearest = np.abs(np.arange(count)[:, None] - at[None]).argmin(axis=1)
     wanted = np.isin([node.id for node in graph.nodes], told)[nearest]
@@ -102,6 +102,6 @@ def frames_of_nodes(graph: SemanticGraph, told: Sequence[int], count: int) -> li
 
 
 def describe_correction(correction: Correction, before: str) -> str:
-    """Return one line on what a correction did."""
-    also = f" and {len(correction.inferred)} beside" if correction.inferred else ""
+    """Return one line about the effect of a correction."""
+    also = f" and {len(correction.inferred)} neighbouring" if correction.inferred else ""
     return f"{before} is now {correction.place}: {len(correction.told)} nodes{also}"

@@ -31,7 +31,7 @@ from roomgraph.semantics.temporal.settings import LabellerSettings
 
 @dataclass(frozen=True, slots=True)
 class LabelledItem:
-    """An image with the label found and, where known, the true one (else empty)."""
+    """An image with its predicted label and its true label (empty if unknown)."""
 
     name: str
     label: str
@@ -91,7 +91,7 @@ def write_labels_csv(path: Path, items: Sequence[LabelledItem]) -> None:
 
 
 def accuracy_table(items: Sequence[LabelledItem]) -> Table | None:
-    """Return the accuracy by class and in all, or None where no truth is known."""
+    """Return the accuracy by class and overall, or None without ground truth."""
     accuracy = compare_labels((i.truth, i.label) for i in items if i.truth)
     if not accuracy.count:
         return None

@@ -38,7 +38,7 @@ def labelled_examples(root: Path) -> list[Example]:
 
 @dataclass(frozen=True, slots=True)
 class Recipe:
-    """What a place model is made of, by names; what is left out stays as the settings say."""
+    """Names of preset, descriptor and classifier; None keeps what the settings say."""
 
     preset: str | None = None
     descriptor: str | None = None
@@ -50,7 +50,7 @@ class Recipe:
         return ", ".join(parts + ([f"classifier {self.classifier}"] if self.classifier else []))
 
     def applied(self, settings: AppSettings) -> AppSettings:
-        """Return settings with the training, and the features, that the names stand for.
+        """Return settings with the training and feature settings of these names.
 
         Raises
         ------
@@ -77,9 +77,9 @@ def _check(what: str, name: str | None, known: Collection[str]) -> None:
 
 
 def train_model(data: Sequence[Path], settings: AppSettings, terminal: Terminal) -> PlaceModel:
-    """Learn a place model from all `data` together."""
+    """Train a place model on all `data` together."""
     examples = [example for root in data for example in labelled_examples(root)]
-    with terminal.progress("Learning places") as advance:
+    with terminal.progress("Training") as advance:
         return train(
             examples, settings.slam.features, settings.semantics.training, settings.seed,
             lambda done, total: advance(done, total, "images described"),

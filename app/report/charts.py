@@ -1,4 +1,4 @@
-"""The report's charts, as SVG that reads on light and on dark ground."""
+"""The report's charts, as SVG that is legible on light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ def label_chart(
     truth: Sequence[str] | None,
     space: LabelSpace,
 ) -> str:
-    """Draw the frames' labels over time, the true ones above where known, and their score.
+    """Draw the labels of the frames over time, above them the true ones if known, and the scores.
 
     Parameters
     ----------
     stamps_s : (N,) float64
         Of the frames, seconds.
     labels, scores : sequence of str, (N,) float64
-        What each was labelled, and how surely.
+        Label of each frame and its probability.
     truth : sequence of str or None
-        What each truly is; empty strings where that is not known.
+        True label of each frame; empty where unknown.
     space : LabelSpace
         Names and colours.
     """
@@ -71,7 +71,7 @@ def error_chart(stamps_s: NDArray[np.float64], errors_m: NDArray[np.float64]) ->
 
 
 def _svg(figure: Figure, all_axes: Sequence[Axes]) -> str:
-    """Return a figure as an ``<svg>`` element on transparent ground."""
+    """Return a figure as an ``<svg>`` element with a transparent background."""
     figure.patch.set_alpha(0)
     for axes in all_axes:
         axes.patch.set_alpha(0)

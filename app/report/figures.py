@@ -1,4 +1,4 @@
-"""A run's figures for people."""
+"""Tables of a run's results for the terminal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from roomgraph.semantics.labels import UNKNOWN
 
 
 def summary(metrics: Mapping[str, Any]) -> Table:
-    """Return a table of what a run found and how good it is."""
+    """Return a table of a run's results and their accuracy."""
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="dim")
     table.add_column()
@@ -37,9 +37,9 @@ def summary(metrics: Mapping[str, Any]) -> Table:
 
 def _places(metrics: Mapping[str, Any]) -> str:
     places, labels = metrics["places"], metrics.get("labels", ())
-    why = "not labelled (a model from `roomgraph train` does: --model)"
+    why = "not labelled (no place model given: --model)"
     if labels:
-        why = f"none looks like what the model knows: {', '.join(labels)}"
+        why = f"none recognised by the model, which knows {', '.join(labels)}"
     found = set(places) - {UNKNOWN}
     if not found:
         return why
@@ -49,7 +49,7 @@ def _places(metrics: Mapping[str, Any]) -> str:
 
 
 def against_truth(metrics: Mapping[str, Any]) -> Table:
-    """Return a table of how near a run is to the truth."""
+    """Return a table that compares a run with the ground truth."""
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="dim")
     table.add_column()
@@ -61,21 +61,21 @@ def against_truth(metrics: Mapping[str, Any]) -> Table:
 def _truth_rows(metrics: Mapping[str, Any]) -> list[tuple[str, str]]:
     rows = []
     if "ate_rmse_m" in metrics:
-        rows.append(("ATE", f"{metrics['ate_rmse_m'] * 100:.2f} cm (rmse)"))
+        rows.append(("ATE", f"{metrics['ate_rmse_m'] * 100:.2f} cm (RMSE)"))
         rows.append((
             "RPE", f"{metrics['rpe_trans_rmse_m'] * 100:.2f} cm, "
-            f"{metrics['rpe_rot_rmse_deg']:.3f}° a frame",
+            f"{metrics['rpe_rot_rmse_deg']:.3f}° per frame",
         ))  # fmt: skip
     if metrics.get("place_accuracy") is not None:
         rows.append((
-            "labels right", f"{metrics['place_accuracy']:.1%} of nodes, "
+            "correct labels", f"{metrics['place_accuracy']:.1%} of nodes, "
             f"{metrics['place_accuracy_per_frame']:.1%} of frames",
         ))  # fmt: skip
         for name, accuracy in metrics["place_accuracy_by_label"].items():
             if accuracy is not None:
                 rows.append((f"  {name}", f"{accuracy:.1%} of frames"))
         rows.append((
-            "rooms told apart", f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} "
+            "separated rooms", f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} "
             f"({', '.join(metrics['rooms_recovered'])})",
         ))  # fmt: skip
     return rows

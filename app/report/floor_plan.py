@@ -1,4 +1,4 @@
-"""The floor plan as a drawing: rooms, walls, doorways, the way walked and the graph's nodes."""
+"""The floor plan as a drawing: rooms, walls, doorways, the path walked and the graph's nodes."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def save_floor_plan(figure: Figure, png: Path, svg: Path) -> None:
 
 
 def _window(graph: SemanticGraph, grid: OccupancyGrid) -> FloatArray:
-    """Return lowest and highest x, lowest and highest y (2, 2) of all that is to be seen."""
+    """Return minimum and maximum x, minimum and maximum y (2, 2) of everything drawn."""
     if graph.rooms:
         points = np.concatenate([room.polygon_map for room in graph.rooms])
     else:
@@ -104,7 +104,7 @@ def _draw_rooms(axes: Axes, graph: SemanticGraph) -> None:
 
 
 def _draw_cells(axes: Axes, graph: SemanticGraph, grid: OccupancyGrid) -> None:
-    """Paint walls dark and furniture lighter; free space without a room hardly at all."""
+    """Paint walls dark, furniture lighter, and free space outside rooms very light."""
     occupied = grid.cells == OCCUPIED
     image = np.zeros((*grid.cells.shape, 4), dtype=np.uint8)
     if not graph.rooms:
@@ -136,7 +136,7 @@ def _draw_doorway(axes: Axes, graph: SemanticGraph, door: Doorway) -> None:
 def _name_rooms(
     axes: Axes, graph: SemanticGraph, path_map: FloatArray, points_per_metre: float
 ) -> None:
-    """Write each place's name and area into it, as large as fits, clear of the way if it can be."""
+    """Write the name and area into each place, as large as fits, off the path if possible."""
     background = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.45}
     for room in graph.rooms:
         name = room.name.replace("_", " ")
@@ -160,7 +160,7 @@ def _name_rooms(
 def _clear_spot(
     room: RoomPolygon, path_map: FloatArray, half: FloatArray
 ) -> tuple[FloatArray, float]:
-    """Return where in a place something lies clear of a path (N, 2), and how clear, metres.
+    """Return the spot in a place that is farthest from a path (N, 2), and its distance, metres.
 
     It is twice `half` (2,) wide and high, metres, and near the place's middle; in the middle, with
     a clearance below 0, if it fits nowhere.
@@ -197,7 +197,7 @@ def _draw_scale(axes: Axes, window: FloatArray, width_m: float) -> None:
     marks: list[tuple[str, dict[str, Any]]] = [
         ("start", {"marker": "o", "mfc": "white", "mec": _INK}),
         ("end", {"marker": "s", "mfc": _INK, "mec": "white"}),
-        ("way", {"ls": "-", "lw": 0.8}),
+        ("path", {"ls": "-", "lw": 0.8}),
         ("node", {"marker": "o", "ms": 3.0}),
         ("doorway", {"ls": "-", "lw": 1.8, "color": _DOOR}),
         ("wall", {"marker": "s", "color": np.array(_WALL) / 255, "ms": 4.5}),

@@ -1,4 +1,4 @@
-"""``report.html``: what a run found, on one page that opens without a network."""
+"""``report.html``: the results of a run on one page that works offline."""
 
 from __future__ import annotations
 
@@ -25,13 +25,14 @@ from roomgraph.semantics.graph.files import read_graph_json
 from roomgraph.slam.errors import SlamError
 from roomgraph.slam.evaluation import compare
 
-# What the stages of a run are called. Some run in a thread beside the others.
+# Displayed names of the stages of a run. Some run in parallel threads.
 _STAGES = {
     "read": "reading (in parallel)", "features": "features (in parallel)", "track": "tracking",
-    "view": "showing", "sketch": "sketch (in parallel)", "label": "labelling",
-    "graph": "graph", "map": "cloud (in parallel)",
+    "view": "viewer", "sketch": "online map (in parallel)", "label": "labelling",
+    "graph": "graph", "map": "point map (in parallel)",
     "floor": "free space", "rooms": "rooms", "write": "writing poses",
-    "write graph": "writing graph", "write map": "writing cloud", "close": "ending recording",
+    "write graph": "writing graph", "write map": "writing point map",
+    "close": "closing the recording",
 }  # fmt: skip
 
 
@@ -43,7 +44,7 @@ def write_report(folder: RunFolder, sequence: FrameSequence | None = None) -> No
     folder : RunFolder
         The run's.
     sequence : Sequence, optional
-        What it was made from, for the truth; else it is opened as it was for the run.
+        The sequence of the run, for its ground truth. Default: it is opened again.
     """
     graph, metrics = read_graph_json(folder.graph_json), folder.read_metrics()
     trajectory = folder.read_trajectory()
@@ -71,7 +72,7 @@ def write_report(folder: RunFolder, sequence: FrameSequence | None = None) -> No
 
 
 def _reopened(folder: RunFolder) -> FrameSequence | None:
-    """Open a run's sequence again; None where it is no longer to be had."""
+    """Open a run's sequence again; None if it is no longer available."""
     try:
         return folder.read_input().open()
     except RoomgraphError:
@@ -85,15 +86,15 @@ def _truth_content(
         (words, f"{metrics[key] if is_good else 1 - metrics[key]:.0%}")
         for key, words, is_good in (
             ("place_recall", "rooms found", True),
-            ("place_precision", "places that are no room", False),
+            ("place_precision", "places that match no room", False),
             ("doorway_recall", "doorways found", True),
-            ("doorway_precision", "doorways that are none", False),
+            ("doorway_precision", "false doorways", False),
         )
         if metrics.get(key) is not None
     ]
     for room, error in metrics.get("area_error", {}).items():
         if error is not None:
-            rows.append((f"area of {room} off by", f"{error:+.1%}"))
+            rows.append((f"area error of {room}", f"{error:+.1%}"))
     content: dict[str, Any] = {"truth_rows": rows, "error_chart": None, "error_words": ""}
     if truth is None:
         return content
@@ -102,8 +103,8 @@ def _truth_content(
     except SlamError:
         return content
     words = (
-        f"Position (ATE): off by {error.ate_rmse_m * 100:.2f} cm (root mean square), "
-        f"{error.ate_max_m * 100:.1f} cm at most. From frame to frame (RPE): "
+        f"Position error (ATE): {error.ate_rmse_m * 100:.2f} cm RMSE, "
+        f"maximum {error.ate_max_m * 100:.1f} cm. Error between successive frames (RPE): "
         f"{error.rpe_trans_rmse_m * 100:.2f} cm and {error.rpe_rot_rmse_deg:.2f}°."
     )
     chart = error_chart(error.stamps_s, error.errors_m)
@@ -124,7 +125,7 @@ def _stages(metrics: Mapping[str, Any]) -> list[dict[str, str]]:
 
 
 def _changed(text: str) -> list[tuple[str, str]]:
-    """Return dotted names and values of the settings in TOML that are not as by default."""
+    """Return dotted names and values of the settings in TOML that differ from their defaults."""
     usual = _flat(AppSettings().model_dump(mode="json", exclude_none=True))
     return [
         (name, str(value))

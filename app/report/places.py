@@ -17,7 +17,7 @@ from roomgraph.app.storage.thumbnails import read_thumbnails
 from roomgraph.datasets.places import PlaceTruth
 from roomgraph.semantics.graph.graph import SemanticGraph
 
-# Of a place, pictures shown at most: a strip of them fills a wide page.
+# Maximum number of pictures per place: a strip of them fills a wide page.
 _PICTURES = 8
 _NONE = "\N{EN DASH}"
 
@@ -54,7 +54,7 @@ def place_content(folder: RunFolder, graph: SemanticGraph) -> dict[str, Any]:
 def _pictures(
     graph: SemanticGraph, thumbnails: Mapping[int, bytes]
 ) -> dict[str, list[dict[str, Any]]]:
-    """Share the keyframes' pictures out to the places of the nodes next in time, evenly chosen."""
+    """Assign keyframe pictures to the place of the node nearest in time; choose some evenly."""
     if not graph.nodes:
         return {}
     at = np.array([node.frame for node in graph.nodes])
@@ -80,7 +80,7 @@ def _pictures(
 def label_content(
     folder: RunFolder, graph: SemanticGraph, metrics: Mapping[str, Any], truth: PlaceTruth | None
 ) -> dict[str, Any]:
-    """Return the chart of labels over time, in words what it shows, and its legend."""
+    """Return the chart of labels over time, a sentence about it, and its legend."""
     rows = [row for row in folder.read_frames() if row["method"] != UNREAD]
     if len(graph.labels) <= 1 or not rows:
         return {"label_chart": None, "label_words": "", "legend": []}
@@ -96,10 +96,10 @@ def label_content(
     words = ""
     if metrics.get("place_accuracy_per_frame_online") is not None:
         words = (
-            f"{metrics['place_accuracy_per_frame_online']:.1%} of frames right on the way, "
+            f"{metrics['place_accuracy_per_frame_online']:.1%} of frames correct online, "
             f"{metrics['place_accuracy_per_frame']:.1%} of frames and "
-            f"{metrics['place_accuracy']:.1%} of nodes at the end; "
-            f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} rooms told apart."
+            f"{metrics['place_accuracy']:.1%} of nodes correct at the end; "
+            f"{len(metrics['rooms_recovered'])} of {len(metrics['rooms'])} rooms separated."
         )
     names = [name for name in graph.labels.names if name in {*labels, *(true or ())}]
     legend = [
@@ -115,5 +115,5 @@ def _hex(graph: SemanticGraph, label_id: int) -> str:
 
 
 def data_url(data: bytes, kind: str) -> str:
-    """Return a file's content as a link that holds it."""
+    """Return a file's content as a data URL."""
     return f"data:{kind};base64,{base64.b64encode(data).decode()}"

@@ -1,4 +1,4 @@
-"""What a run found, in figures and a sentence: the head of its report."""
+"""The head of a run's report: its results in figures and a sentence."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def summary_content(
         (f"{area:.0f} m²", "floor"),
         (f"{metrics['path_length_m']:.1f} m", "walked"),
         (f"{share:.0%}", f"of {metrics['frames']} frames tracked"),
-        (str(metrics["loop_closures"]), "loops closed"),
-        (f"{metrics['fps']:.1f}", "frames a second"),
+        (str(metrics["loop_closures"]), "loop closures"),
+        (f"{metrics['fps']:.1f}", "frames per second"),
     ]
     if "ate_rmse_m" in metrics:
         figures.append((f"{metrics['ate_rmse_m'] * 100:.1f} cm", "trajectory error (ATE)"))
     if metrics.get("place_accuracy") is not None:
-        figures.append((f"{metrics['place_accuracy']:.0%}", "of nodes labelled rightly"))
+        figures.append((f"{metrics['place_accuracy']:.0%}", "of nodes labelled correctly"))
     return {
         "name": name,
         "found": found_words(graph, metrics),
@@ -51,7 +51,7 @@ def summary_content(
 
 
 def found_words(graph: SemanticGraph, metrics: Mapping[str, Any]) -> str:
-    """Return in a sentence what a run found; nothing if that is no place."""
+    """Return a sentence about the places found; empty if there are none."""
     kinds = Counter(e.label.replace("_", " ") for e in graph.rooms if e.label != UNKNOWN)
     unnamed = len(graph.rooms) - kinds.total()
     parts = [_counted(count, kind) for kind, count in kinds.most_common()]
@@ -66,15 +66,15 @@ def found_words(graph: SemanticGraph, metrics: Mapping[str, Any]) -> str:
 
 
 def _truth_words(metrics: Mapping[str, Any]) -> str:
-    """Return what the figures of error are measured against; nothing where there are none."""
+    """Return what the errors are measured against; empty if there is no ground truth."""
     if "ate_rmse_m" not in metrics:
         return ""
     if (Path(metrics["sequence"]) / FILE_NAME).is_file():
         return (
-            "A rendered building: its true path and rooms are known, and errors are measured "
-            "against them. A real camera does worse."
+            "A rendered building: errors are measured against its true path and rooms. "
+            "Errors of a real camera are larger."
         )
-    return "Errors are measured against the true path that comes with the sequence."
+    return "Errors are measured against the ground-truth path of the sequence."
 
 
 def _counted(count: int, kind: str) -> str:
@@ -88,16 +88,16 @@ def _warnings(graph: SemanticGraph, metrics: Mapping[str, Any]) -> list[str]:
     lost = metrics["frames_lost"] + metrics["frames_skipped"]
     if lost:
         found.append(
-            f"{metrics['frames_lost']} frames were lost and {metrics['frames_skipped']} skipped: "
-            "they have no pose"
+            f"{metrics['frames_lost']} frames were lost and {metrics['frames_skipped']} skipped; "
+            "these have no pose"
         )
     if len(graph.labels) <= 1:
         found.append(
-            "places are not labelled: no place model was given (`roomgraph train` makes one)"
+            "places are not labelled: no place model was given (train one with `roomgraph train`)"
         )
     elif graph.nodes and not any(node.label_id for node in graph.nodes):
         found.append(
-            f"no place looks like what the model knows: {', '.join(graph.labels.names[1:])}"
+            f"no place was recognised by the model, which knows {', '.join(graph.labels.names[1:])}"
         )
     return found
 

@@ -1,4 +1,4 @@
-"""The whole job on two rendered buildings: learn one, map and label the other."""
+"""The demonstration: train on one rendered building, map and label another."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def run_demo(
 ) -> tuple[RunFolder, dict[str, Any]]:
     """Run the demonstration; return its run folder and metrics.
 
-    Building ``2 * seed`` by day and night is learned from, building ``2 * seed + 1`` is mapped.
+    Trains on building ``2 * seed`` by day and night, and maps building ``2 * seed + 1``.
     The place model is kept in the run's folder.
     """
     outputs.check()
@@ -36,8 +36,8 @@ def run_demo(
     (strange_floor,) = cached(("day",), strange, terminal)
     model = train_model(exemplars, settings, terminal)
     terminal.say(
-        f"Learned from {sum(model.training['images'].values())} images; "
-        f"{model.training['cross_validated_accuracy']:.1%} right on held-out visits",
+        f"Trained on {sum(model.training['images'].values())} images; "
+        f"accuracy on held-out visits: {model.training['cross_validated_accuracy']:.1%}",
         dim=True,
     )
     sequence = open_sequence(strange_floor)

@@ -1,4 +1,4 @@
-"""A finished run against the truth."""
+"""Comparison of a finished run with the ground truth."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from roomgraph.slam.evaluation import compare
 
 @dataclass(frozen=True, slots=True)
 class RunEvaluation:
-    """A run's trajectory, the true one where known, and the figures."""
+    """A run's trajectory, the true one if known, and the metrics."""
 
     estimate: Trajectory
     truth: Trajectory | None
@@ -31,7 +31,7 @@ class RunEvaluation:
 def evaluate_run(
     folder: RunFolder, groundtruth: Path | None = None, places: Path | None = None
 ) -> RunEvaluation:
-    """Compare a run with files of truth, or with those of the sequence it was made from.
+    """Compare a run with ground-truth files, or with the ground truth of its sequence.
 
     Raises
     ------
@@ -54,20 +54,20 @@ def evaluate_run(
     if not found:
         raise AppError(
             "no ground truth to compare with", where=folder.root,
-            expected="true poses or labels at the run's time stamps",
-            hint="name them with --groundtruth FILE or --places FILE",
+            expected="ground-truth poses or labels at the run's time stamps",
+            hint="give them with --groundtruth FILE or --places FILE",
         )  # fmt: skip
     return RunEvaluation(estimate, truth, found)
 
 
 def draw(path: Path, found: RunEvaluation) -> None:
-    """Draw both paths from above the first camera, and the error over time, as an image."""
+    """Plot both paths, seen from above the first camera, and the error over time."""
     from matplotlib.figure import Figure
 
     if found.truth is None:
-        raise AppError("nothing to draw", where=path, expected="true poses")
+        raise AppError("nothing to plot", where=path, expected="ground-truth poses")
     if path.suffix not in (".png", ".pdf", ".svg"):
-        raise AppError("no such kind of picture", where=path, expected=".png, .pdf or .svg")
+        raise AppError("unknown image format", where=path, expected=".png, .pdf or .svg")
     error = compare(found.estimate, found.truth)
     figure = Figure(figsize=(10, 4.5), layout="constrained")
     paths, times = figure.subplots(1, 2)

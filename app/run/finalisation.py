@@ -1,4 +1,4 @@
-"""What comes of a run once its last frame is tracked: way, rooms, cloud, and their files."""
+"""Finalisation of a run after its last frame: trajectory, rooms, point map, and their files."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Products:
-    """What was made of a run.
+    """The outputs of a run.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Products:
 
 @dataclass(frozen=True, slots=True)
 class Finalisation:
-    """Makes the products of what both layers found, writes and shows them.
+    """Makes, writes and shows the outputs of a run.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Finalisation:
     clock: StageClock
 
     def make(self) -> Products:
-        """Make, write and show everything, the cloud in a thread of its own; end the viewer."""
+        """Make, write and show all outputs, the point map in its own thread; close the viewer."""
         self._settle()
         trajectory = self.history.trajectory()
         with ThreadPoolExecutor(1, thread_name_prefix="cloud") as pool:
@@ -98,7 +98,7 @@ class Finalisation:
         return Products(trajectory, graph, points, warnings)
 
     def _settle(self) -> None:
-        """Write down where frames turned out to be."""
+        """Write the final poses of the frames."""
         apart = self.history.settle()
         self.topology.keep(self.slam.placed_poses)
         self._write_frames()
@@ -122,7 +122,7 @@ class Finalisation:
         return found
 
     def _graph(self, floor: FloorAnalysis | None) -> SemanticGraph:
-        """Return the graph with the places' rooms and the doorways between them."""
+        """Return the graph with the rooms of its places and the doorways between them."""
         with self.clock.stage("rooms"):
             graph = self.topology.snapshot(self.slam.keyframe_poses)
             if floor is None:
@@ -139,12 +139,12 @@ class Finalisation:
             self.viewer.close()
 
     def _write_frames(self) -> None:
-        """Write what is known now of each frame, and which the run did not get to."""
+        """Write the final state of each frame, and the frames that the run did not reach."""
         frames = self.history.frames
         self.recorder.rewrite_frames(frames, self.stamps_s[len(frames) :])
 
     def _write_way(self, trajectory: Trajectory) -> None:
-        """Write where the camera was, and what its keyframes saw."""
+        """Write the trajectory and the keyframe database."""
         placed = self.slam.placed_poses
         keyframes = [k for k in self.slam.keyframes.values() if k.id in placed]
         self.recorder.write_trajectory(trajectory)

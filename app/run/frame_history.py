@@ -1,4 +1,4 @@
-"""The frames of a run with their labels, and where they are as far as known now."""
+"""The frames of a run with their labels and their present poses."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FloatArray = NDArray[np.float64]
 
 
 class FrameHistory:
-    """Keeps what was found of each frame, and says where that is in the world.
+    """Keeps the results of each frame, and returns their present poses in the world.
 
     Parameters
     ----------
@@ -46,14 +46,14 @@ class FrameHistory:
         self.online: list[str] = []
 
     def add(self, tracking: Tracking, label: FrameLabel) -> LabelledFrame:
-        """Keep the next frame, and return what is kept."""
+        """Store the next frame, and return the stored form."""
         frame = LabelledFrame(tracking.without_view(), label)
         self.frames.append(frame)
         self.online.append(label.label)
         return frame
 
     def settle(self) -> list[Trajectory]:
-        """Say at last of each frame whether its place in the world became known.
+        """Set the final state of each frame: whether its pose in the world is known.
 
         Frames of a sub-map that was joined count as relocalised where they were lost; those of a
         sub-map that never was are lost. Returns the ways through these, each in its own frame.
@@ -97,12 +97,12 @@ class FrameHistory:
                 self.frames[tracking.index] = replace(frame, label=named)
 
     def trajectory(self) -> Trajectory:
-        """Return the poses of all frames that have a place in the world."""
+        """Return the poses of all frames whose pose in the world is known."""
         way = _way_of(self.frames, self.slam.placed_poses)
         return _trajectory_of([(tracking.stamp_s, T) for tracking, T in way])
 
     def votes(self, keyframes: Sequence[int]) -> list[Vote]:
-        """Return where frames that hang on one of `keyframes` were, and what they look like."""
+        """Return positions and labels of the frames anchored to one of `keyframes`."""
         known = set(keyframes)
         return [
             Vote(
@@ -116,7 +116,7 @@ class FrameHistory:
         ]
 
     def map_view(self, points: PointMap, graph: SemanticGraph) -> MapView:
-        """Return a finished map as viewers are shown it, with keyframes, constraints and the way.
+        """Return a finished map for viewers, with keyframes, constraints and path.
 
         Each point has the label of the place it lies in, else of the keyframe that saw it.
         """
@@ -128,7 +128,7 @@ class FrameHistory:
         return replace(view, label_ids=np.where(place >= 0, of_room[place], view.label_ids))
 
     def sketch(self) -> Callable[[], MapView]:
-        """Return what draws the map as it is now, coarsely; see `Slam.map_sketcher`.
+        """Return a function that draws the present map coarsely; see `Slam.map_sketcher`.
 
         Without a place's room, what is seen through a door bears the label of this side of it.
         """
@@ -143,7 +143,7 @@ def _view_of(
     T_world_keyframe: dict[int, FloatArray],
     constraints: Sequence[Constraint],
 ) -> MapView:
-    """Return a map as viewers are shown it, each point labelled like the keyframe that saw it."""
+    """Return a map for viewers; each point has the label of the keyframe that saw it."""
     between = [
         k for k in constraints if k.first in T_world_keyframe and k.second in T_world_keyframe
     ]
@@ -171,7 +171,7 @@ def _view_of(
 def _way_of(
     frames: Sequence[LabelledFrame], T_world_keyframe: dict[int, FloatArray]
 ) -> list[tuple[Tracking, FloatArray]]:
-    """Return the frames that have a place in the world, and T_world_camera (4, 4) there."""
+    """Return the frames with a known pose in the world, and T_world_camera (4, 4) of each."""
     return [
         (frame.tracking, T_world_keyframe[anchor.keyframe] @ anchor.T_keyframe_camera)
         for frame in frames

@@ -1,4 +1,4 @@
-"""The figures of a run."""
+"""The metrics of a run."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def run_metrics(
 def topology_metrics(
     graph: SemanticGraph, truth: FloorPlanTruth, matches: dict[str, str]
 ) -> dict[str, Any]:
-    """Return how right the places' rooms and the doorways are; `matches` is room to place."""
+    """Return the accuracy of rooms and doorways; `matches` maps room to place."""
     places, errors = evaluate_rooms(graph, truth.areas_m2, matches)
     doorways = evaluate_doorways(graph, truth.doorways, matches)
     return {
@@ -105,7 +105,7 @@ def topology_metrics(
 
 
 def memory_metrics(slam: Slam, points: PointMap) -> dict[str, Any]:
-    """Return the bytes held by keyframes and map, over the area of the surfaces seen."""
+    """Return the memory of keyframes and map, also per area of observed surface."""
     held = sum(keyframe.nbytes for keyframe in slam.keyframes.values()) + points.nbytes
     area = points.surface_m2()
     return {
@@ -116,7 +116,7 @@ def memory_metrics(slam: Slam, points: PointMap) -> dict[str, Any]:
 
 
 def trajectory_metrics(trajectory: Trajectory, truth: Trajectory) -> dict[str, Any]:
-    """Return ATE and RPE; nothing if too few poses have a true one."""
+    """Return ATE and RPE; empty if too few poses have ground truth."""
     try:
         error = compare(trajectory, truth)
     except SlamError:
@@ -133,7 +133,7 @@ def trajectory_metrics(trajectory: Trajectory, truth: Trajectory) -> dict[str, A
 def place_metrics(
     graph: SemanticGraph, frames: list[tuple[float, str]], truth: PlaceTruth
 ) -> dict[str, Any]:
-    """Return label accuracy of nodes and frames, and how the rooms were told apart."""
+    """Return label accuracy of nodes and frames, and which rooms were separated."""
     nodes, per_frame = evaluate_nodes(graph, truth), evaluate_frames(frames, truth)
     instances = evaluate_instances(graph, truth)
     return {

@@ -1,4 +1,4 @@
-"""A sequence's way through the house: frames in, a run's folder out."""
+"""The pipeline of a run: frames in, a run folder out."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ GROWTH_PARTS = 16
 
 
 class Pipeline:
-    """Runs both layers over a sequence and hands what they find to recorder and viewer.
+    """Runs SLAM and labelling on a sequence, and passes the results to recorder and viewer.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class Pipeline:
         return metrics
 
     def _views(self) -> Iterator[View]:
-        """Yield frames, read and made ready ahead in a thread."""
+        """Yield frames, read and prepared ahead of time in a thread."""
 
         def prepare(index: int) -> View:
             with self.clock.stage("read"):
@@ -124,12 +124,12 @@ class Pipeline:
             return self.slam.process(view)
 
     def _label(self, tracking: Tracking) -> None:
-        """Label frames, some behind tracking: keyframes' features are found in the background."""
+        """Label frames a little later than tracking, as keyframe features come from a thread."""
         self._unlabelled.append(tracking)
         self._label_but(LABEL_LAG)
 
     def _label_but(self, count: int) -> None:
-        """Label the frames that wait, but the last few."""
+        """Label the waiting frames except the last few."""
         while len(self._unlabelled) > count:
             tracking = self._unlabelled[0]
             with self.clock.stage("label"):
@@ -139,7 +139,7 @@ class Pipeline:
             self._take(labels)
 
     def _input_of(self, tracking: Tracking) -> FrameInput:
-        """Return what the labeller is shown: features where it uses them, keyframes' images."""
+        """Return the labeller's input: features if it uses them, and images of keyframes."""
         view, T = tracking.view, tracking.T_world_camera
         return FrameInput(
             tracking.index, tracking.stamp_s,
@@ -150,7 +150,7 @@ class Pipeline:
         )  # fmt: skip
 
     def _take(self, labels: list[FrameLabel]) -> None:
-        """Follow the path with frames whose vote is complete, and write them down."""
+        """Extend the graph by frames whose labels are final, and record these frames."""
         for label in labels:
             tracking = self._awaiting.popleft()
             with self.clock.stage("graph"):
@@ -161,7 +161,7 @@ class Pipeline:
                 self._enter(label.index)
 
     def _enter(self, frame: int) -> None:
-        """Show the graph with its new node if it is time, or if that lies in another place."""
+        """Show the graph with its new node if it is due, or if the node is in another place."""
         graph = self.topology.snapshot(self.slam.placed_poses, partial=True)
         places = [node.place for node in graph.nodes[-2:]]
         is_there = bool(places) and graph.nodes[-1].frame == frame  # else in a sub-map, nowhere yet
@@ -185,7 +185,7 @@ class Pipeline:
         self.progress(self._done, len(self.sequence), self._state(tracking))
 
     def _sketch(self) -> Callable[[], MapView]:
-        """Return what draws the map as it is now, timed where it is drawn."""
+        """Return a function that draws the map as it is now, timed where it runs."""
         draw = self.history.sketch()
 
         def timed() -> MapView:
@@ -195,7 +195,7 @@ class Pipeline:
         return timed
 
     def _in_world(self, tracking: Tracking) -> Tracking:
-        """Return a frame without its pose where that lies in a sub-map that is nowhere yet."""
+        """Return a frame without its pose if that is in a sub-map not yet joined to the map."""
         anchor = tracking.anchor
         if anchor is None or self.slam.is_placed(anchor):
             return tracking
@@ -206,7 +206,7 @@ class Pipeline:
             self.recorder.write_trajectory(self.history.trajectory())
 
     def _finish(self) -> dict[str, Any]:
-        """Write everything, from a whole run or from what there is of it."""
+        """Write all outputs of a complete or interrupted run."""
         self.progress(self._done, len(self.sequence), "making map, rooms and files")
         failure = self._wait()
         self._label_but(0)
@@ -228,13 +228,13 @@ class Pipeline:
         return metrics
 
     def _wait(self) -> Exception | None:
-        """Wait for the keyframes in the making; return what went wrong, to be raised at the end."""
+        """Wait for pending keyframes; return an error, to be raised at the end."""
         try:
             for closure in self.slam.finish():
                 frame = self.slam.keyframes[closure.keyframe].frame_index
                 self.viewer.log(frame, _loop_event(closure))
         except Exception as error:
-            logger.exception("the map is without its last keyframes")
+            logger.exception("keyframe processing failed: the map lacks its last keyframes")
             return error
         return None
 
@@ -259,7 +259,7 @@ class Pipeline:
 
 
 def _events(tracking: Tracking) -> list[str]:
-    """Return what is worth telling of a frame."""
+    """Return the events of a frame to display."""
     events = [_loop_event(closure) for closure in tracking.closures]
     if tracking.state is not TrackingState.OK:
         events.append(f"frame {tracking.index} {tracking.state.value}")

@@ -26,14 +26,14 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class OutputOptions:
-    """How a run is shown: live in Rerun, recorded for it, and as a report."""
+    """Optional outputs of a run: live in Rerun, as a recording, and as a report."""
 
     live: bool = False
     save: bool = True
     report: bool = True
 
     def check(self) -> None:
-        """Raise where it cannot be shown so, before any work is done."""
+        """Raise an error before any work if the live viewer cannot open."""
         if self.live:
             from roomgraph.app.viewer.sinks import find_viewer
 
@@ -75,8 +75,8 @@ def map_sequence(
             try:
                 metrics = pipeline.run()
             except KeyboardInterrupt:
-                say = f"`roomgraph report {folder.root}` and `roomgraph view {folder.root}` show it"
-                terminal.say(f"What was mapped until now is in {folder.root}: {say}.")
+                say = f"`roomgraph report {folder.root}` and `roomgraph view {folder.root}`"
+                terminal.say(f"The map so far is in {folder.root}; see it with {say}.")
                 raise
         if outputs.report and metrics["frames_tracked"]:
             from roomgraph.app.report.page import write_report
@@ -85,9 +85,10 @@ def map_sequence(
         logger.info("finished, see %s", folder.metrics.name)
     if not metrics["frames_tracked"]:
         raise AppError(
-            "no frame could be tracked", where=sequence.root, expected="colour with its depth",
+            "no frame could be tracked", where=sequence.root,
+            expected="colour images with their depth images",
             hint="; ".join(map(str, found.findings))
-            or "look at the depth images, and check --depth-scale and --camera",
+            or "inspect the depth images, and check --depth-scale and --camera",
         )  # fmt: skip
     return metrics
 
@@ -102,8 +103,8 @@ def examined(sequence: Sequence, settings: AppSettings) -> Examination:
 
 
 def _examine(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> Examination:
-    """Check the sequence and warn of what cannot be right."""
-    with terminal.working("Checking the sequence (a first run also compiles: some seconds)"):
+    """Check the sequence and print warnings."""
+    with terminal.working("Checking the sequence (the first run also compiles, for some seconds)"):
         found = examined(sequence, settings)
     for finding in found.findings:
         logger.warning("%s: %s", finding.kind, finding)
@@ -114,20 +115,20 @@ def _examine(sequence: Sequence, settings: AppSettings, terminal: Terminal) -> E
 def _keep_camera(
     camera: Camera, folder: RunFolder, options: InputOptions, terminal: Terminal
 ) -> None:
-    """Write the corrected camera, so that all who open the run's sequence again use it."""
+    """Write the corrected camera, to be used whenever the run's sequence is opened again."""
     write_camera(folder.camera, camera.intrinsics, camera.depth_scale, camera.depth)
     corrected = {"camera": folder.camera, "depth_scale": None}
     write_input(folder.input, options.model_copy(update=corrected))
-    say = f"the corrected camera is kept: --camera {folder.camera} uses it for other sequences"
+    say = f"corrected camera written; use it for other sequences with --camera {folder.camera}"
     logger.info("%s", say)
     terminal.say(say, dim=True)
 
 
 def with_features_of(model: PlaceModel | None, settings: AppSettings) -> AppSettings:
-    """Extract features as the model's training images were: features are computed only once."""
+    """Use the feature settings of the place model, so that features are computed only once."""
     if model is None or model.features in (None, settings.slam.features):
         return settings
-    logger.info("features as in the place model: %s", model.features)
+    logger.info("using the feature settings of the place model: %s", model.features)
     slam = settings.slam.model_copy(update={"features": model.features})
     return settings.model_copy(update={"slam": slam})
 

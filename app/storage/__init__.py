@@ -1,1 +1,1 @@
-"""What lies on disk: a run's folder and its files, how a sequence was opened, cached buildings."""
+"""Files on disk: run folders, input options, cached buildings."""

@@ -17,7 +17,7 @@ Row = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True)
 class LabelledFrame:
-    """What SLAM and the semantic layer say of one frame."""
+    """Results of SLAM and labelling for one frame."""
 
     tracking: Tracking
     label: FrameLabel
@@ -34,5 +34,5 @@ class LabelledFrame:
 
 
 def unread_row(stamp_s: float) -> Row:
-    """Return the row of a frame that the run did not get to."""
+    """Return the row of a frame that the run did not reach."""
     return (f"{stamp_s:.6f}", TrackingState.SKIPPED.value, 0, "", UNKNOWN, "0.0000", UNREAD)

@@ -1,4 +1,4 @@
-"""Opening what the user points at, and remembering how it was opened."""
+"""Opening the user's sequence, and storing how it was opened."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from roomgraph.datasets.settings import Settings
 
 
 class InputOptions(Settings):
-    """A sequence and how it is opened: what the flags of `roomgraph run` say."""
+    """A sequence and how to open it, as given by the flags of `roomgraph run`."""
 
     sequence: Path = Field(description="folder of the sequence")
-    dataset: str | None = Field(None, description="layout; guessed if left out")
-    camera: Path | None = Field(None, description="camera file in place of the sequence's own")
-    depth_scale: float | None = Field(None, gt=0, description="raw depth units a metre")
-    start: int = Field(0, ge=0, description="first frame")
-    frames: int | None = Field(None, ge=1, description="frames at most")
-    stride: int = Field(1, ge=1, description="every n-th frame")
+    dataset: str | None = Field(None, description="layout of the dataset; detected if left out")
+    camera: Path | None = Field(None, description="camera file that replaces the sequence's own")
+    depth_scale: float | None = Field(None, gt=0, description="raw depth units per metre")
+    start: int = Field(0, ge=0, description="number of the first frame")
+    frames: int | None = Field(None, ge=1, description="maximum number of frames")
+    stride: int = Field(1, ge=1, description="every n-th frame is used")
 
     def open(self) -> Sequence:
         """Open the sequence.
@@ -63,8 +63,8 @@ def read_input(path: Path) -> InputOptions:
         options = InputOptions.model_validate(tomllib.loads(path.read_text(encoding="utf-8")))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ValidationError) as error:
         raise AppError(
-            "input options cannot be read", where=path, expected="what `roomgraph run` writes",
-            got=str(error).splitlines()[0],
+            "input options cannot be read", where=path,
+            expected="a file written by `roomgraph run`", got=str(error).splitlines()[0],
         ) from error  # fmt: skip
     beside = {"sequence": path.parent / options.sequence}
     if options.camera is not None:

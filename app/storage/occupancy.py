@@ -61,6 +61,7 @@ def read_occupancy(path: Path) -> OccupancyGrid:
         )  # fmt: skip
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError) as error:
         raise AppError(
-            "occupancy grid not understood", where=path, expected="map.yaml with its map.pgm",
-            got=f"{type(error).__name__} {error}", hint="`roomgraph run SEQUENCE -o DIR` makes one",
+            "invalid occupancy grid", where=path, expected="map.yaml with its map.pgm",
+            got=f"{type(error).__name__} {error}",
+            hint="create one with: roomgraph run SEQUENCE -o DIR",
         ) from error  # fmt: skip

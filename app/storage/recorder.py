@@ -42,7 +42,7 @@ class Recorder:
         self._thumbnails = ThumbnailWriter(folder.thumbnails)
 
     def add_frame(self, frame: LabelledFrame) -> None:
-        """Write a frame's row, as known so far."""
+        """Write a frame's row with its state so far."""
         self._rows.writerow(frame.row)
         self._file.flush()
 
@@ -53,7 +53,7 @@ class Recorder:
     def rewrite_frames(
         self, frames: Sequence[LabelledFrame], unread_s: NDArray[np.float64]
     ) -> None:
-        """Write all rows again as known at the end, with those that the run did not get to."""
+        """Write all rows again with their final state, and rows of frames never reached."""
         self._file.close()
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
@@ -63,7 +63,7 @@ class Recorder:
         write_text(self.folder.frames, text.getvalue())
 
     def write_submap(self, number: int, trajectory: Trajectory) -> None:
-        """Write the way through a sub-map that never met the map, in a frame of its own."""
+        """Write the trajectory of a sub-map that never joined the map, in its own frame."""
         write_tum(self.folder.submap(number), trajectory)
 
     def write_trajectory(self, trajectory: Trajectory) -> None:
@@ -71,20 +71,20 @@ class Recorder:
         write_tum(self.folder.trajectory, trajectory)
 
     def write_pose_graph(self, graph: PoseGraph, stamps_s: Mapping[int, float]) -> None:
-        """Write the poses of keyframes, given with their stamps, and their constraints."""
+        """Write the poses and stamps of keyframes, and the constraints between them."""
         T = np.array([graph[key] for key in stamps_s]).reshape(-1, 4, 4)
         write_tum(self.folder.keyframes, Trajectory(np.array(list(stamps_s.values())), T))
         graph.write_g2o(self.folder.pose_graph, set(stamps_s))
 
     def write_keyframe_database(self, database: KeyframeDatabase | None) -> None:
-        """Write what is kept of the keyframes, if there are any."""
+        """Write the keyframe database, if there are keyframes."""
         if database is not None:
             write_keyframe_database(self.folder.keyframe_database, database)
 
     def write_map(
         self, points: PointMap, label_ids: NDArray[np.integer[Any]], labels: LabelSpace
     ) -> None:
-        """Write what the labels mean, and the labelled cloud if there is one."""
+        """Write the label space, and the labelled point map if there is one."""
         write_labels(self.folder.labels, labels)
         if len(points):
             write_cloud(
@@ -92,7 +92,7 @@ class Recorder:
             )
 
     def write_occupancy(self, grid: OccupancyGrid) -> None:
-        """Write where there is free way and where there is none."""
+        """Write the occupancy grid."""
         write_occupancy(self.folder.occupancy, grid)
 
     def write_graph(self, graph: SemanticGraph) -> None:
@@ -101,7 +101,7 @@ class Recorder:
         write_graphml(self.folder.graphml, graph)
 
     def write_metrics(self, metrics: Mapping[str, Any]) -> None:
-        """Write the run's figures."""
+        """Write the run's metrics."""
         write_text(self.folder.metrics, json.dumps(metrics, indent=1) + "\n")
 
     def close(self) -> None:

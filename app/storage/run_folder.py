@@ -1,4 +1,4 @@
-"""The folder that a run leaves: the names of its files, made and read here only."""
+"""The folder of a run: all its file names are defined here."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ RUN_MARKS = ("config.toml", "input.toml")
 
 @dataclass(frozen=True, slots=True)
 class RunFolder:
-    """Where each product of a run lies."""
+    """Paths of the files of a run."""
 
     root: Path
 
@@ -31,7 +31,7 @@ class RunFolder:
         return self.root / "trajectory.tum"
 
     def submap(self, number: int) -> Path:
-        """Return where the poses of a sub-map lie that never met the map, in a frame of its own."""
+        """Return the file of the poses of a sub-map that never joined the map, in its own frame."""
         return self.root / f"submap_{number}.tum"
 
     @property
@@ -51,7 +51,7 @@ class RunFolder:
 
     @property
     def keyframe_database(self) -> Path:
-        """What is kept of the keyframes to recognise them by."""
+        """The keyframe database, for relocalisation."""
         return self.root / "keyframes.npz"
 
     @property
@@ -81,7 +81,7 @@ class RunFolder:
 
     @property
     def metrics(self) -> Path:
-        """Figures of the run."""
+        """Metrics of the run."""
         return self.root / "metrics.json"
 
     @property
@@ -101,7 +101,7 @@ class RunFolder:
 
     @property
     def report(self) -> Path:
-        """The page that shows what a run found."""
+        """The report page of the run."""
         return self.root / "report.html"
 
     @property
@@ -111,7 +111,7 @@ class RunFolder:
 
     @property
     def input(self) -> Path:
-        """What the run was made from: the sequence and how it was opened."""
+        """The input of the run: the sequence and how it was opened."""
         return self.root / "input.toml"
 
     @property
@@ -121,7 +121,7 @@ class RunFolder:
 
     @property
     def log(self) -> Path:
-        """What was logged."""
+        """The log file."""
         return self.root / "run.log"
 
     @property
@@ -131,20 +131,22 @@ class RunFolder:
 
     @property
     def model(self) -> Path:
-        """The place model that a demonstration learned for its run."""
+        """The place model that the demonstration trained."""
         return self.root / "model"
 
     def read_metrics(self) -> dict[str, Any]:
-        """Return the run's figures."""
+        """Return the run's metrics."""
         try:
             values: dict[str, Any] = json.loads(self.existing(self.metrics).read_text("utf-8"))
         except ValueError as error:
             raise AppError(
-                "figures of the run cannot be read", where=self.metrics, got=str(error)
+                "metrics of the run cannot be read", where=self.metrics, got=str(error)
             ) from error
         if not str(values.get("schema", "")).startswith("roomgraph/metrics/"):
             raise AppError(
-                "figures of another kind", where=self.metrics, expected="schema roomgraph/metrics/1"
+                "metrics file of another kind",
+                where=self.metrics,
+                expected="schema roomgraph/metrics/1",
             )
         return values
 
@@ -153,7 +155,7 @@ class RunFolder:
         return read_input(self.existing(self.input))
 
     def read_camera(self) -> Camera | None:
-        """Return the camera of the run's sequence, as it was opened; None if that is gone."""
+        """Return the camera of the run's sequence, as opened; None if the sequence is gone."""
         source = self.read_input()
         return source.open().camera if source.sequence.is_dir() else None
 
@@ -167,7 +169,7 @@ class RunFolder:
             return list(csv.DictReader(file))
 
     def existing(self, path: Path) -> Path:
-        """Return a product's path.
+        """Return the path of an output.
 
         Raises
         ------
@@ -176,9 +178,9 @@ class RunFolder:
         """
         if not path.exists():
             raise AppError(
-                "not a run's folder, or the run did not end", where=self.root,
+                "not the folder of a finished run", where=self.root,
                 expected=path.name, got="no such file",
-                hint="`roomgraph run SEQUENCE -o DIR` makes one",
+                hint="create one with: roomgraph run SEQUENCE -o DIR",
             )  # fmt: skip
         return path
 
@@ -205,7 +207,7 @@ def make_run_folder(output: Path | None, name: str, overwrite: bool) -> RunFolde
 
 
 def clear_output(output: Path, overwrite: bool, marks: tuple[str, ...]) -> None:
-    """Make way for a folder to be written; only one that holds all of `marks` is ever removed."""
+    """Clear an output folder; only a folder with all files in `marks` is ever removed."""
     if not output.exists() or (output.is_dir() and not any(output.iterdir())):
         if output.exists():
             output.rmdir()
@@ -217,15 +219,15 @@ def clear_output(output: Path, overwrite: bool, marks: tuple[str, ...]) -> None:
         )  # fmt: skip
     if output.is_symlink() or not all((output / mark).exists() for mark in marks):
         raise AppError(
-            "output is not ours to overwrite", where=output,
+            "refusing to overwrite what is not roomgraph output", where=output,
             expected=f"a folder with {' and '.join(marks)}",
-            got="another kind of folder or file", hint="choose another with -o",
+            got="other content", hint="choose another with -o",
         )  # fmt: skip
     shutil.rmtree(output)
 
 
 def refuse_existing(output: Path, overwrite: bool) -> None:
-    """Raise where a file to be written is there already, or its folder is not."""
+    """Raise if an output file already exists, or its folder does not."""
     if not output.resolve().parent.is_dir():
         raise AppError("no such folder", where=output.parent, expected="an existing folder")
     if output.exists() and not overwrite:

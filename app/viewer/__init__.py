@@ -1,1 +1,1 @@
-"""What a viewer is shown, and the viewer that records for Rerun."""
+"""The interface of viewers, and the viewer that records for Rerun."""

@@ -1,4 +1,4 @@
-"""How the recording is laid out on the screen."""
+"""Layout of the recording in the Rerun viewer."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def _maps(framing: Framing | None, labelled: bool) -> rrb.Horizontal:
     coloured = ["+ /world/map/colour", "+ /world/map/above", *_PATH, *_NAMES]
     rooms = ["+ /world/map/labels", "+ /world/graph/**"]
     return rrb.Horizontal(
-        _map_view("Map · path blue, truth yellow, loops pink", coloured, framing),
+        _map_view("Map · path blue, ground truth yellow, loops pink", coloured, framing),
         _map_view(
             f"{'Map by label' if labelled else 'Rooms'} · doors orange, graph white", rooms, framing
         ),
         rrb.Vertical(
             rrb.Spatial2DView(name="Camera", origin="/world/camera/image"),
             rrb.Spatial2DView(
-                name="Depth · blue is near, red far, black unknown", origin="/world/camera/depth"
+                name="Depth · blue near, red far, black unknown", origin="/world/camera/depth"
             ),
         ),
         column_shares=[3, 3, 1.6],
@@ -56,7 +56,7 @@ def _details(labelled: bool) -> rrb.Horizontal:
         x_range=(-1.25 * width, 1.25 * width), y_range=(-1.15 * height, 1.15 * height)
     )
     score = rrb.ScalarAxis(range=(0.0, 1.05), zoom_lock=True)
-    name = "Label on the way, and tracking" if labelled else "Tracking"
+    name = "Online label and tracking" if labelled else "Tracking"
     over_time = (
         rrb.StateTimelineView(name=name, origin="/timeline"),
         rrb.TimeSeriesView(name="Probability of the label", origin="/plots/score", axis_y=score),
@@ -64,9 +64,9 @@ def _details(labelled: bool) -> rrb.Horizontal:
     return rrb.Horizontal(
         rrb.GraphView(name="Places", origin="/graph", visual_bounds=bounds),
         rrb.Vertical(*over_time) if labelled else over_time[0],
-        rrb.TimeSeriesView(name="Inliers · matches that agree", origin="/plots/inliers"),
+        rrb.TimeSeriesView(name="Inlier matches", origin="/plots/inliers"),
         rrb.Vertical(
-            rrb.TextDocumentView(name="Now · what the image looks like", origin="/status"),
+            rrb.TextDocumentView(name="Current frame", origin="/status"),
             rrb.TextLogView(
                 name="Events", origin="/events", columns=_event_columns(),
             ),

@@ -1,4 +1,4 @@
-"""Which way is up, what hides the rooms, and where to look at them from."""
+"""The up direction, the ceiling to hide, and the viewpoint of the scene."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Axes:
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """Where to look from: positions (3,) in the world, metres, and the way up."""
+    """The viewpoint: positions (3,) in the world, metres, and the up direction."""
 
     eye: FloatArray
     target: FloatArray
@@ -60,7 +60,7 @@ class Framing:
 
 
 def level_axes(T_world_camera: FloatArray) -> Axes:
-    """Find the level from the cameras' poses (N, 4, 4), N > 0.
+    """Estimate the horizontal axes from camera poses (N, 4, 4), N > 0.
 
     Nobody holds a camera askew for long: its x axis stays level whatever its pitch. Up is
     therefore at right angles to all x axes; where these are too much alike to tell, the mean
@@ -118,7 +118,7 @@ def frame_scene(points_world: FloatArray, path: FloatArray, axes: Axes) -> Frami
 
 
 def _spread(points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest and the highest of points (N, 3), strays left out."""
+    """Return minimum and maximum of points (N, 3) without outliers."""
     if not len(points):
         return np.zeros(3), np.zeros(3)
     low, high = np.percentile(points, [1, 99], axis=0)

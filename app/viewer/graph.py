@@ -1,4 +1,4 @@
-"""The topological graph as Rerun is told of it: in the map with rooms and doors, and as a plan."""
+"""The topological graph in Rerun: in the map with rooms and doors, and as a plan."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def log_graph(recording: rr.RecordingStream, graph: SemanticGraph, axes: Axes) -
 
 
 def place_spots(graph: SemanticGraph) -> dict[str, int]:
-    """Return the node that bears the name of each known place: the one in its middle."""
+    """Return the node that shows the name of each known place: the one in its middle."""
     places = np.array([node.place for node in graph.nodes])
     positions, spots = graph.positions, {}
     for place in graph.places:
@@ -134,6 +134,6 @@ def _colour(graph: SemanticGraph, node: int) -> Colour:
 
 
 def _readable(colour: Colour) -> Colour:
-    """Return a lighter colour, for text on dark ground."""
+    """Return a lighter colour, for text on a dark background."""
     red, green, blue = (round(0.55 * c + 0.45 * 255) for c in colour)
     return red, green, blue

@@ -38,7 +38,7 @@ def thinned(intrinsics: Intrinsics, step: int) -> Intrinsics:
 
 
 def has_depth(frame: Frame, pixels: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which pixels (N, 2) have a depth reading (N,)."""
+    """Return which pixels (N, 2) have a depth reading (N,)."""
     columns, rows = np.rint(pixels).astype(np.intp).T
     height, width = frame.depth.shape
     inside = frame.depth[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)]

@@ -1,4 +1,4 @@
-"""Keyframes with their pictures, standing in the map where they were taken."""
+"""Pictures of keyframes, shown in the map where they were taken."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOVED_M = 0.01
 
 
 class KeyframePictures:
-    """Draws the pictures of keyframes that are apart from each other.
+    """Draws the pictures of keyframes with a minimum distance between them.
 
     Parameters
     ----------
@@ -35,13 +35,13 @@ class KeyframePictures:
         self._drawn: dict[int, FloatArray] = {}
 
     def keep(self, keyframe: int, frame: Frame) -> None:
-        """Take in what a keyframe saw."""
+        """Store the picture of a keyframe."""
         height = max(1, round(frame.colour.shape[0] * _WIDTH / frame.colour.shape[1]))
         small = cv2.resize(frame.colour, (_WIDTH, height), interpolation=cv2.INTER_AREA)
         self._pictures[keyframe] = small, frame.intrinsics
 
     def draw(self, recording: rr.RecordingStream, view: MapView) -> None:
-        """Draw those that are new in the map, and move along those that it has moved."""
+        """Draw new pictures, and move those whose keyframes have moved."""
         for keyframe, T in zip(view.keyframes, view.T_world_keyframe, strict=True):
             before = self._drawn.get(keyframe)
             if before is None and keyframe in self._pictures:

@@ -39,7 +39,7 @@ _TRACKING, _LABEL = "timeline/tracking", "timeline/label"
 
 
 class RerunViewer:
-    """Tells Rerun of a run. Nothing is global: several may work side by side.
+    """Sends a run to Rerun. Without global state: several may work at once.
 
     Maps on the way are thinned, and left out where they come too thick and fast. The last one is
     drawn densely, and the views are set on it, when the viewer is closed.
@@ -63,7 +63,7 @@ class RerunViewer:
         self, save: Path | None, spawn: bool = False, settings: ViewerSettings | None = None
     ) -> None:
         if save is None and not spawn:
-            raise AppError("a viewer without a window and without a file", hint="use NoViewer")
+            raise AppError("the viewer has neither a window nor a file", hint="use NoViewer")
         self.settings = settings or ViewerSettings()
         self._save, self._spawn = save, spawn
         self._stamps: dict[int, float] = {}
@@ -146,7 +146,7 @@ class RerunViewer:
             self._show_status(tracking, words if self._has_labels else "places not labelled")
 
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
-        """Show the map as it is at a frame; takes the place of the one before."""
+        """Show the map at a frame; it replaces the previous one."""
         view = draw()
         self._map = (frame, view)
         last = view.frames[-1] if view.frames else -1
@@ -161,7 +161,7 @@ class RerunViewer:
             self._draw_cloud(view, self.settings.max_points)
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
-        """Show the topological graph as it is at a frame."""
+        """Show the topological graph at a frame."""
         if graph.T_map_world is not None:
             self._plan_axes = Axes.of_map(graph.T_map_world)
         self._at(frame)
@@ -173,7 +173,7 @@ class RerunViewer:
         self._recording.log("events", rr.TextLog(text, level=rr.TextLogLevel.INFO))
 
     def close(self) -> None:
-        """Draw the last map densely, set the views on it, and flush."""
+        """Draw the final map densely, frame it in the views, and flush."""
         if self._map is not None:
             frame, view = self._map
             self._at(frame)
@@ -183,7 +183,7 @@ class RerunViewer:
         self._recording.disconnect()
 
     def _layout(self, points_world: FloatArray, path: FloatArray) -> rrb.Blueprint:
-        """Return the layout with the views set on what is there; on nothing if there is nothing."""
+        """Return the layout with views that frame the map, if there is one."""
         framing = None
         if len(points_world) or len(path):
             framing = frame_scene(points_world, path, self._axes())
@@ -191,18 +191,18 @@ class RerunViewer:
 
     @property
     def _has_labels(self) -> bool:
-        """Whether there is more than ``unknown``."""
+        """Whether there are labels other than ``unknown``."""
         return len(self._session.labels) > 1
 
     def _at(self, frame: int) -> None:
-        """Set the time of what is said next; a frame that has not come yet has no stamp."""
+        """Set the time of the next messages; a frame not yet received has no stamp."""
         self._recording.reset_time()
         self._recording.set_time("frame", sequence=frame)
         if frame in self._stamps:
             self._recording.set_time("stamp", duration=self._stamps[frame])
 
     def _say(self, entity: str, state: str) -> None:
-        """Tell a state, if it is another than before."""
+        """Send a state if it differs from the previous one."""
         if self._said.get(entity) != state:
             self._said[entity] = state
             self._recording.log(entity, rr.StateChange(state=state))
@@ -222,7 +222,7 @@ class RerunViewer:
         self._recording.log("world/camera/depth/image", blob)
 
     def _draw_recent(self) -> None:
-        """Draw the path since the last frame that the last map's path has."""
+        """Draw the path since the last frame of the path in the last map."""
         positions = np.array([p.T_world_camera[:3, 3] for p in self._recent]).reshape(-1, 3)
         frames, states = [p.frame for p in self._recent], [p.state for p in self._recent]
         path = scene.trajectory(positions, frames, states)
@@ -244,7 +244,7 @@ class RerunViewer:
         scene.log_pose_graph(self._recording, view)
 
     def _points_allowed(self, frame: int) -> float:
-        """Return how many points may have been drawn by a frame: a share of them all, and a map."""
+        """Return the number of points allowed until a frame: a share of the total, plus one map."""
         share = (frame + 1) / max(self._session.frames, 1)
         return self.settings.max_points + share * self.settings.max_points_total
 

@@ -1,4 +1,4 @@
-"""What is sent to Rerun, by entity: the fixed things, the map, the path."""
+"""Entities sent to Rerun: the static ones, the map, the path."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _FRUSTUM_M = 0.4
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the camera was at a frame, and how that was found."""
+    """Pose of the camera at a frame, and its tracking state."""
 
     frame: int
     state: TrackingState
@@ -49,7 +49,7 @@ class Pose:
 
 
 def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: int) -> None:
-    """Send what does not change: axes, labels, camera, true path, style of images and plots."""
+    """Send static entities: axes, labels, camera, true path, style of images and plots."""
 
     def log(entity: str, *what: object) -> None:
         recording.log(entity, *what, static=True)
@@ -77,7 +77,7 @@ def log_fixed(recording: rr.RecordingStream, session: SessionView, depth_step: i
 
 
 def state_word(tracking: Tracking) -> str:
-    """Return how a frame fared, in a word."""
+    """Return the tracking state of a frame as a word."""
     apart = tracking.anchor is not None and tracking.T_world_camera is None
     return SUBMAP if apart else tracking.state.value
 
@@ -112,7 +112,7 @@ def _depth_style() -> rr.EncodedDepthImage:
 def trajectory(
     positions: FloatArray, frames: Sequence[int], states: Sequence[TrackingState]
 ) -> rr.LineStrips3D:
-    """Draw a path (F, 3) coloured by what each frame's state was; red across lost frames."""
+    """Draw a path (F, 3) coloured by the state of each frame; red across lost frames."""
     colours = [
         STATE_COLOURS[TrackingState.LOST if b - a > 1 else state]
         for (a, b), state in zip(pairwise(frames), states[1:], strict=True)
@@ -126,7 +126,7 @@ def trajectory(
 
 
 def log_cloud(recording: rr.RecordingStream, view: MapView, low: Mask, radius: float) -> None:
-    """Send the map's points; those that are not `low` hide the others and go apart."""
+    """Send the map's points; those above `low` would hide the others and are sent separately."""
     points, colours = view.points.points_world, view.points.colours
     log = recording.log
     log("world/map/colour", rr.Points3D(points[low], colors=colours[low], radii=radius))
@@ -138,7 +138,7 @@ def log_cloud(recording: rr.RecordingStream, view: MapView, low: Mask, radius: f
 
 
 def log_pose_graph(recording: rr.RecordingStream, view: MapView) -> None:
-    """Send the keyframes and what joins them."""
+    """Send the keyframes and the constraints between them."""
     log = recording.log
     keyframes = rr.Points3D(
         view.T_world_keyframe[:, :3, 3], colors=KEYFRAME_COLOUR, radii=rr.Radius.ui_points(2.0)

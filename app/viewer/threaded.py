@@ -1,4 +1,4 @@
-"""A viewer that works beside the run."""
+"""A viewer that works in its own thread."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _WAITING = 4
 
 
 class ThreadedViewer:
-    """Makes another viewer and hands it all that it is told, in order, in a thread of its own.
+    """Makes another viewer and passes all calls to it, in order, in a separate thread.
 
     Where the other viewer falls behind, the run waits. What goes wrong in the thread is raised by
     one of the next calls, and by `close` at the latest.
@@ -38,31 +38,31 @@ class ThreadedViewer:
         self._waiting: deque[Future[None]] = deque()
 
     def start(self, session: SessionView) -> None:
-        """Start the other viewer and wait until it stands."""
+        """Start the other viewer and wait until it is ready."""
         self._pool.submit(lambda: self._viewer.start(session)).result()
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
-        """Hand on a frame."""
+        """Pass on a frame."""
         self._later(lambda: self._viewer.show_frame(frame, tracking))
 
     def show_label(self, frame: int, label_id: int, label: str, score: float) -> None:
-        """Hand on a frame's label."""
+        """Pass on a frame's label."""
         self._later(lambda: self._viewer.show_label(frame, label_id, label, score))
 
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
-        """Hand on what draws the map."""
+        """Pass on the function that draws the map."""
         self._later(lambda: self._viewer.show_map(frame, draw))
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
-        """Hand on the topological graph."""
+        """Pass on the topological graph."""
         self._later(lambda: self._viewer.show_graph(frame, graph))
 
     def log(self, frame: int, text: str) -> None:
-        """Hand on an event."""
+        """Pass on an event."""
         self._later(lambda: self._viewer.log(frame, text))
 
     def close(self) -> None:
-        """Wait for all that was handed on, and close the other viewer."""
+        """Wait until all calls are done, and close the other viewer."""
         self._hand_on()
         self._waiting.append(self._pool.submit(lambda: self._viewer.close()))
         try:
@@ -73,7 +73,7 @@ class ThreadedViewer:
 
     @property
     def _viewer(self) -> Viewer:
-        """The other viewer, for the thread, which has made it before anything else."""
+        """The other viewer, which the thread makes first."""
         return self._made.result()
 
     def _later(self, call: Callable[[], None]) -> None:
@@ -89,7 +89,7 @@ class ThreadedViewer:
 
 
 def _make_all(calls: list[Callable[[], None]]) -> None:
-    """Make calls in order; one that fails does not keep back those after it."""
+    """Make calls in order; a failed call does not stop the later ones."""
     with ExitStack() as stack:
         for call in reversed(calls):
             stack.callback(call)

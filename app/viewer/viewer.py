@@ -1,4 +1,4 @@
-"""What a viewer is told. A viewer that shows nothing is a viewer too."""
+"""The interface of viewers, and a viewer that shows nothing."""
 
 from __future__ import annotations
 
@@ -82,10 +82,10 @@ class MapView:
 
 
 class Viewer(Protocol):
-    """Shows or records a run while it goes on. It gets data, never the SLAM object."""
+    """Shows or records a run in progress. It gets data, never the SLAM object."""
 
     def start(self, session: SessionView) -> None:
-        """Take in what is known before the first frame."""
+        """Start with what is known before the first frame."""
         ...
 
     def show_frame(self, frame: Frame, tracking: Tracking) -> None:
@@ -97,7 +97,7 @@ class Viewer(Protocol):
         ...
 
     def show_map(self, frame: int, draw: Callable[[], MapView]) -> None:
-        """Show the map as it is at a frame; takes the place of the one before.
+        """Show the map at a frame; it replaces the previous one.
 
         `draw` makes it, so that a viewer without need of it costs next to nothing. It may be called
         later and in another thread, but one at a time and in the order in which they came.
@@ -105,7 +105,7 @@ class Viewer(Protocol):
         ...
 
     def show_graph(self, frame: int, graph: SemanticGraph) -> None:
-        """Show the topological graph as it is at a frame."""
+        """Show the topological graph at a frame."""
         ...
 
     def log(self, frame: int, text: str) -> None:

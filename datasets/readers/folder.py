@@ -59,12 +59,12 @@ class FolderReader:
         else:
             raise DatasetError(
                 "colour and depth images do not pair up", where=root,
-                expected="equal file names, or as many of the one as of the other",
+                expected="equal file names, or equal numbers of images",
                 got=f"{len(colour)} colour and {len(depth)} depth images",
             )  # fmt: skip
         camera = camera or _camera_of(root)
         stamps = _stamps([stem for stem, _, _ in pairs])
-        notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units a metre"]
+        notes = [f"camera from {camera.origin}, depth {camera.depth_scale:g} units per metre"]
         notes += unpaired_notes(len(colour) - len(pairs), len(depth) - len(pairs))
         return RecordedSequence(
             name=root.resolve().name, root=root, camera=camera, stamps=stamps,

@@ -1,4 +1,4 @@
-"""What a layout's reader offers."""
+"""The interface of readers of sequence layouts."""
 
 from __future__ import annotations
 

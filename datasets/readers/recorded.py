@@ -37,8 +37,8 @@ class RecordedSequence:
     def __post_init__(self) -> None:
         if not len(self.stamps):
             raise DatasetError(
-                "no frames", where=self.root, expected="colour images, each with its depth",
-                hint="check the folder, or name its layout with --dataset",
+                "no frames", where=self.root, expected="colour images with depth images",
+                hint="check the folder, or give its layout with --dataset",
             )  # fmt: skip
 
     @property

@@ -1,4 +1,4 @@
-"""A colour and a depth image as one pinhole camera sees them."""
+"""Undistortion of images, and registration of depth to colour."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ EDGE_SHARE = 0.05
 def rectify(
     colour: NDArray[np.uint8], depth: NDArray[np.float32], camera: Camera, depth_path: Path
 ) -> tuple[NDArray[np.uint8], NDArray[np.float32], Intrinsics]:
-    """Undistort colour, and lay the depth on it if that comes from a camera of its own.
+    """Undistort colour, and register the depth to it if from a separate camera.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def rectify(
         The depth image has not the size of the camera that took it.
     """
     pinhole = replace(camera.intrinsics, distortion=())
-    hint = 'if depth has a camera of its own, describe that in the camera file: "depth": {...}'
+    hint = 'for a separate depth camera, describe it in the camera file: "depth": {...}'
     taken_by = camera.intrinsics if camera.depth is None else camera.depth.intrinsics
     check_size(depth, taken_by, depth_path, hint)
     depth = undistort_depth(depth, taken_by)

@@ -1,4 +1,4 @@
-"""From a path to a sequence: the layout is guessed from the folder."""
+"""Opening of sequences; the layout is detected from the folder."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def open_sequence(
 
 
 def guess_layout(root: Path) -> str:
-    """Return the name of the layout that the folder's files speak of.
+    """Return the name of the layout that matches the folder's files.
 
     Raises
     ------
@@ -103,10 +103,10 @@ def described() -> list[str]:
 
 
 def _registered(depth: DepthCamera) -> str:
-    """Return what a person should know of a depth camera beside the colour camera."""
+    """Return a note for the user about a separate depth camera."""
     beside_mm = 1000 * np.linalg.norm(depth.T_colour_depth[:3, 3])
     return (
-        f"depth comes from a camera of its own, {depth.intrinsics.width}x"
+        f"depth images are from a separate camera, {depth.intrinsics.width}x"
         f"{depth.intrinsics.height}, fx {depth.intrinsics.fx:g}, {beside_mm:.0f} mm beside "
-        "the colour camera; it is registered to that"
+        "the colour camera; it is registered to the colour images"
     )

@@ -53,7 +53,7 @@ class SevenScenesReader:
         camera = camera or camera_beside(root) or _camera_of(root, colour[0])
         stamps = np.array([_number(stem) for stem in whole]) / FRAME_RATE_HZ
         notes = [
-            f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units a metre, "
+            f"camera fx {camera.intrinsics.fx:g}, depth {camera.depth_scale:g} units per metre, "
             f"from {camera.origin}"
         ]
         if len(stems) > len(whole):
@@ -81,9 +81,9 @@ def _read_poses(root: Path, stems: list[str], stamps: np.ndarray) -> Trajectory 
         try:
             T = np.loadtxt(path)
         except ValueError as error:
-            raise DatasetError("pose not understood", where=path, got=str(error)) from error
+            raise DatasetError("invalid pose", where=path, got=str(error)) from error
         if T.shape != (4, 4):
-            raise DatasetError("pose not understood", where=path, expected="4 x 4 numbers")
+            raise DatasetError("invalid pose", where=path, expected="4 x 4 numbers")
         if np.all(np.isfinite(T)):
             kept.append(stamp)
             poses.append(T)
@@ -96,7 +96,7 @@ def _camera_of(root: Path, first_colour: Path) -> Camera:
     if not path.exists() and (width, height) != (640, 480):
         raise DatasetError(
             "camera unknown", where=root, expected=f"{path.name}, or 640x480 images",
-            got=f"{width}x{height}", hint="name the camera with --camera FILE.json",
+            got=f"{width}x{height}", hint="give the camera with --camera FILE.json",
         )  # fmt: skip
     if not path.exists():
         values, origin = PUBLISHED, "7-Scenes' published calibration"
@@ -105,7 +105,7 @@ def _camera_of(root: Path, first_colour: Path) -> Camera:
             K = np.loadtxt(path).reshape(3, 3)
         except ValueError as error:
             raise DatasetError(
-                "camera file not understood", where=path, expected="a 3 x 3 matrix", got=str(error)
+                "invalid camera file", where=path, expected="a 3 x 3 matrix", got=str(error)
             ) from error
         values, origin = (K[0, 0], K[1, 1], K[0, 2], K[1, 2]), path.name
     fx, fy, cx, cy = (float(value) for value in values)

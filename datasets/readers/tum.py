@@ -47,7 +47,7 @@ class TumReader:
         intrinsics = camera.intrinsics
         notes.append(
             f"camera {intrinsics.width}x{intrinsics.height}, fx {intrinsics.fx:g}, "
-            f"depth {camera.depth_scale:g} units a metre, from {camera.origin}"
+            f"depth {camera.depth_scale:g} units per metre, from {camera.origin}"
         )
         return RecordedSequence(
             name=root.resolve().name, root=root, camera=camera, stamps=stamps,
@@ -65,7 +65,7 @@ def _associate(root: Path) -> tuple[NDArray[np.float64], list[Path], list[Path],
         raise DatasetError(
             "no colour image has a depth image at its time", where=root,
             expected=f"time stamps in rgb.txt and depth.txt within {MAX_DIFFERENCE_S} s",
-            got=f"{len(colour)} colour and {len(depth)} depth images, none that near",
+            got=f"{len(colour)} colour and {len(depth)} depth images, none within that time",
             hint=f"the depth's stamps are {typical_offset(colour_s, depth_s):+.4g} s off: "
             "take that from those in depth.txt",
         )  # fmt: skip
@@ -110,7 +110,7 @@ def _rows(path: Path, columns: int) -> list[list[str]]:
             continue
         if len(words) != columns or not all(_is_number(w) for w in words[::2]):
             raise DatasetError(
-                "line not understood", where=f"{path}:{number}",
+                "invalid line", where=f"{path}:{number}",
                 expected=" ".join(["timestamp file"] * (columns // 2)), got=repr(line[:60]),
             )  # fmt: skip
         rows.append(words)
@@ -134,6 +134,6 @@ def _published_camera(root: Path, first_colour: Path) -> Camera:
         raise DatasetError(
             "camera unknown", where=root,
             expected="camera.json, or 640x480 images of a TUM Kinect", got=f"{width}x{height}",
-            hint="name the camera with --camera FILE.json",
+            hint="give the camera with --camera FILE.json",
         )  # fmt: skip
     return camera

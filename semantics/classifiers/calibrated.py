@@ -1,4 +1,4 @@
-"""Probabilities for any machine: calibration on samples that were left out of training."""
+"""Calibration of any classifier's probabilities on samples held out of training."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class CalibratedClassifier(Estimator):
         """Return the number D of features that a machine takes."""
 
     def _axes(self, X: FloatArray) -> FloatArray | None:
-        """Return axes (D, R) on which the same machine is learned faster, None for none."""
+        """Return axes (D, R) that make training faster with the same result, or None."""
         return None
 
     def _lifted(self, machine: Machine, axes: FloatArray) -> Machine:
@@ -75,7 +75,7 @@ class CalibratedClassifier(Estimator):
         return machine
 
     def contributions(self, vector: FloatArray, winner: int) -> FloatArray | None:
-        """Return what each number of a vector (D,) adds to a class against the others' mean.
+        """Return the contribution of each number of a vector (D,) to a class against the mean.
 
         None, as by default, where the decision is no sum over the vector's numbers.
         """
@@ -112,7 +112,7 @@ class CalibratedClassifier(Estimator):
         return self
 
     def decisions(self, X: ArrayLike) -> FloatArray:
-        """Return how much speaks for each class (N, K); the largest wins."""
+        """Return the decision values (N, K) of the classes; the largest wins."""
         self._check_fitted()
         return self._decide(self.machine_, self._check_X(X))
 
@@ -151,7 +151,7 @@ class CalibratedClassifier(Estimator):
         return {**self.machine_, "sigmoid": self.sigmoid_, "scaling": self.scaling_}
 
     def with_arrays(self, classes: Sequence[str], arrays: Mapping[str, NDArray[Any]]) -> Self:
-        """Take over what `arrays` returned; return self.
+        """Restore what `arrays` returned; return self.
 
         Raises
         ------

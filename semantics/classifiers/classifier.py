@@ -1,4 +1,4 @@
-"""What a place classifier is: from a vector to the kind of place, with probabilities."""
+"""The interface of place classifiers: from a vector to the probabilities of places."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 
 
 class PlaceClassifier(Protocol):
-    """A scikit-learn classifier whose probabilities hold, and that saves itself as named arrays.
+    """A scikit-learn classifier with calibrated probabilities, saved as named arrays.
 
     `CalibratedClassifier` implements all but the machine itself.
 
@@ -52,7 +52,7 @@ class PlaceClassifier(Protocol):
         ...
 
     def decisions(self, X: ArrayLike) -> FloatArray:
-        """Return how much speaks for each class (N, K); the largest wins."""
+        """Return the decision values (N, K) of the classes; the largest wins."""
         ...
 
     def probabilities(self, decisions: FloatArray) -> FloatArray:
@@ -64,7 +64,7 @@ class PlaceClassifier(Protocol):
         ...
 
     def contributions(self, vector: NDArray[Any], winner: int) -> FloatArray | None:
-        """Return what each number of a vector (D,) adds to a class against the others' mean.
+        """Return the contribution of each number of a vector (D,) to a class against the mean.
 
         None where the decision is no sum over the vector's numbers.
         """
@@ -79,7 +79,7 @@ class PlaceClassifier(Protocol):
         ...
 
     def with_arrays(self, classes: Sequence[str], arrays: Mapping[str, NDArray[Any]]) -> Self:
-        """Take over what `arrays` returned; return self.
+        """Restore what `arrays` returned; return self.
 
         Raises
         ------

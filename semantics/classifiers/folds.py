@@ -1,4 +1,4 @@
-"""Folds for cross-validation that keep what was seen together on one side."""
+"""Folds for cross-validation that keep groups of images together."""
 
 from __future__ import annotations
 

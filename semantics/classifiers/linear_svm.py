@@ -13,9 +13,9 @@ FloatArray = NDArray[np.float64]
 
 
 class LinearSvmSettings(Settings):
-    """How hard errors are punished."""
+    """Settings of the linear SVM."""
 
-    C: float = Field(10.0, gt=0, description="penalty of errors (paper: 10)")
+    C: float = Field(10.0, gt=0, description="penalty of training errors (paper: 10)")
 
 
 class LinearSvm(CalibratedClassifier):
@@ -62,7 +62,7 @@ class LinearSvm(CalibratedClassifier):
         return self.machine_["intercept"]
 
     def contributions(self, vector: FloatArray, winner: int) -> FloatArray:
-        """Return what each number of a vector (D,) adds to a class against the others' mean."""
+        """Return the contribution of each number of a vector (D,) to a class against the mean."""
         coef = self.coef_
         others = (coef.sum(axis=0) - coef[winner]) / (len(coef) - 1)
         return np.asarray((coef[winner] - others) * vector)

@@ -23,23 +23,35 @@ _SMALLEST = 2
 
 
 class DenseSettings(Settings):
-    """Where an image is described, and how coarsely."""
+    """Positions, scales and size of the dense descriptors."""
 
     side: int = Field(
-        200, ge=48, le=1024, description="images are resized to this many pixels squared, any shape"
+        200,
+        ge=48,
+        le=1024,
+        description="images are resized to a square with sides of this many pixels",
     )
-    scales: int = Field(4, ge=1, le=8, description="sizes of the image, a root of two apart")
-    cell: int = Field(4, ge=2, le=16, description="pixels a cell; a descriptor has 4 x 4 cells")
-    step: int = Field(5, ge=1, le=32, description="pixels between two descriptors")
+    scales: int = Field(
+        4,
+        ge=1,
+        le=8,
+        description="number of image sizes; each is smaller by the square root of two",
+    )
+    cell: int = Field(
+        4, ge=2, le=16, description="side of a cell, pixels; a descriptor has 4 x 4 cells"
+    )
+    step: int = Field(
+        5, ge=1, le=32, description="distance between neighbouring descriptors, pixels"
+    )
     contrast: float = Field(
         10.0, gt=0, le=100,
-        description="length of a gradient histogram that counts half: flat patches count less",
+        description="norm of a gradient histogram that gets half weight; flat patches get less",
     )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class DenseDescriptors:
-    """What one image looks like, everywhere.
+    """The dense descriptors of one image.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What an image descriptor is: an image as a vector."""
+"""The interface of image descriptors: an image as a vector."""
 
 from __future__ import annotations
 
@@ -91,13 +91,13 @@ class ImageDescriptor(Protocol):
         return self.length
 
     def can_describe(self, colour: Image | None, features: Features | None) -> bool:
-        """Whether what is there of an image is what this looks at."""
+        """Whether the image has what this descriptor needs."""
         return colour is not None
 
     def prepare(
         self, colour: Image | None, features: Features | None = None, to_fit: bool = False
     ) -> Any:
-        """Return the part of the description that needs no learning, None for too little to see.
+        """Return the part of the description that needs no training, None for too few features.
 
         It is what is kept of each training image until all are there, so it should be small.
         Several threads may call this at once.
@@ -118,21 +118,21 @@ class ImageDescriptor(Protocol):
         return self
 
     def describe(self, prepared: Any) -> Description | None:
-        """Return the description of a prepared image, None if there is too little to see.
+        """Return the description of a prepared image, None for too few features.
 
         By default what `prepare` returns is the vector.
         """
         return Description.of(prepared)
 
     def words(self, shares: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Return the shares (D,) that the numbers of a vector have in a decision, by visual word.
+        """Return the contributions (D,) of a vector's numbers to a decision, by visual word.
 
         None, as by default, where the numbers stand for nothing that has a number of its own.
         """
         return None
 
     def summary(self) -> dict[str, Any]:
-        """Return what is worth telling of what was learned."""
+        """Return a summary of what was learned."""
         return {}
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -140,7 +140,7 @@ class ImageDescriptor(Protocol):
         return {}
 
     def with_arrays(self, arrays: Mapping[str, NDArray[Any]]) -> Self:
-        """Take over what `arrays` returned; return self.
+        """Restore what `arrays` returned; return self.
 
         Raises
         ------
@@ -153,7 +153,7 @@ class ImageDescriptor(Protocol):
 def vectors_of(
     descriptor: ImageDescriptor, prepared: Sequence[Any], threads: int
 ) -> list[NDArray[Any] | None]:
-    """Return the vector (D,) of each prepared image, None where there is too little to see."""
+    """Return the vector (D,) of each prepared image, None for too few features."""
 
     def vector(item: Any) -> NDArray[Any] | None:
         description = None if item is None else descriptor.describe(item)

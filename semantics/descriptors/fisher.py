@@ -31,9 +31,15 @@ _SIGNATURE = "signature_"
 class FisherSettings(Settings):
     """How images are described as a whole."""
 
-    n_words: int = Field(64, ge=2, le=4096, description="Gaussians, started from Neural Gas words")
-    n_components: int = Field(64, ge=2, le=128, description="principal axes of the descriptors")
-    em_steps: int = Field(10, ge=0, le=1000, description="steps of expectation maximisation")
+    n_words: int = Field(
+        64, ge=2, le=4096, description="number of Gaussians, initialised from Neural Gas words"
+    )
+    n_components: int = Field(
+        64, ge=2, le=128, description="number of principal components of the descriptors"
+    )
+    em_steps: int = Field(
+        10, ge=0, le=1000, description="number of steps of expectation maximisation"
+    )
     dense: DenseSettings = DenseSettings()
     signature: WordsSettings = WordsSettings()
 

@@ -1,4 +1,4 @@
-"""Fisher vectors: how an image's descriptors differ from what is usual around each visual word."""
+"""Fisher vectors: deviation of an image's descriptors from each visual word's distribution."""
 
 from __future__ import annotations
 

@@ -26,18 +26,20 @@ Vectors = NDArray[np.float32]
 
 
 class WordsSettings(Settings):
-    """How many words, learned from how much."""
+    """Number of visual words, and their training."""
 
-    n_words: int = Field(100, ge=2, le=10000, description="visual words (paper: 100)")
-    n_epochs: int = Field(5, ge=1, le=1000, description="Neural Gas passes over the descriptors")
+    n_words: int = Field(100, ge=2, le=10000, description="number of visual words (paper: 100)")
+    n_epochs: int = Field(
+        5, ge=1, le=1000, description="number of Neural Gas passes over the descriptors"
+    )
     max_descriptors: int = Field(
         200_000, ge=100, description="maximum number of descriptors that the words are learned from"
     )
     normalisation: Normalisation = Field(
-        "hellinger", description="of the histograms: l1 (paper), l2 or hellinger"
+        "hellinger", description="normalisation of the histograms: l1 (paper), l2 or hellinger"
     )
     min_features: int = Field(
-        5, ge=1, description="an image with fewer features than this shows an unknown place"
+        5, ge=1, description="images with fewer features are labelled unknown"
     )
 
 
@@ -132,7 +134,7 @@ class WordsDescriptor(ImageDescriptor):
                 "local features do not fit the place model",
                 expected="those of " + ("" if self.features is None else self.features.detector),
                 got=str(error),
-                hint="run with the feature settings that the model was trained with",
+                hint="use the feature settings that the model was trained with",
             ) from error  # fmt: skip
 
 

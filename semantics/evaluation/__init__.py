@@ -1,1 +1,1 @@
-"""How right labels, probabilities, places and graphs are."""
+"""Evaluation of labels, probabilities, places and graphs."""

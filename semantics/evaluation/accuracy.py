@@ -1,4 +1,4 @@
-"""How right labels and places are, against the true rooms."""
+"""Accuracy of labels and places compared with the true rooms."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ class LabelAccuracy:
 
     @property
     def overall(self) -> float:
-        """Share of items labelled rightly, NaN if there are none."""
+        """Share of items labelled correctly, NaN if there are none."""
         return float(np.trace(self.confusion) / self.count) if self.count else float("nan")
 
     @property
     def per_label(self) -> dict[str, float]:
-        """Share of the items of each true label that were labelled rightly."""
+        """Share of the items of each true label that were labelled correctly."""
         totals = self.confusion.sum(axis=1)
         return {
             name: float(self.confusion[i, i] / totals[i])

@@ -1,4 +1,4 @@
-"""How far probabilities can be believed, and how well what is novel stands out."""
+"""Calibration of probabilities, and detection of novel places."""
 
 from __future__ import annotations
 

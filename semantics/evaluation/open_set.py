@@ -1,4 +1,4 @@
-"""What probabilities are worth: for buildings never seen, and for kinds of place never seen."""
+"""Open-set evaluation: probabilities in unseen buildings and for unseen kinds of place."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OpenSetEvaluation:
-    """Probabilities (N, K) of images of buildings never seen, their truth (N,), familiarity (N,).
+    """Probabilities (N, K), truth (N,) and familiarity (N,) of images of unseen buildings.
 
     `novel` is the familiarity of images of a kind of place never seen.
     """

@@ -25,7 +25,7 @@ def route_results(
     positions: NDArray[np.float64],
     settings: LabellerSettings,
 ) -> list[SplitResult]:
-    """Return how right the labels of frames and nodes are, with and without neighbours.
+    """Return the accuracy of the labels of frames and nodes, with and without neighbours.
 
     Parameters
     ----------

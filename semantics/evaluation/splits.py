@@ -25,7 +25,7 @@ STRETCHES, STRETCHES_SAME_LIGHT = "other stretches, other light", "other stretch
 
 @dataclass(frozen=True, slots=True)
 class EvaluationSet:
-    """Images as the classifier sees them, with what is known about each.
+    """Images as input of the classifier, with their metadata.
 
     Attributes
     ----------
@@ -81,12 +81,12 @@ class SplitResult:
 
     @property
     def accuracy(self) -> float:
-        """Share of images labelled rightly."""
+        """Share of images labelled correctly."""
         return float(np.mean(self.truth == self.found))
 
 
 def per_class(results: Sequence[SplitResult]) -> dict[str, float]:
-    """Return the share of the images of each class that were labelled rightly, over all splits."""
+    """Return the share of correctly labelled images of each class, over all splits."""
     truth = np.concatenate([result.truth for result in results])
     right = truth == np.concatenate([result.found for result in results])
     return {str(name): float(right[truth == name].mean()) for name in np.unique(truth)}
@@ -104,7 +104,7 @@ def run_split(
 
 
 def recognition(evaluation_set: EvaluationSet, seed: int) -> Iterator[SplitResult]:
-    """Ten folds in each light and in all: visits held out whole, then frames drawn as they come.
+    """Ten folds in each light and in all: whole visits held out, then random frames.
 
     An image bears the label of the room it was taken in, as the paper's do. Where it is known what
     the images show, they are also learned and judged by that, with what is shown held out.

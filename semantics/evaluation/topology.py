@@ -1,4 +1,4 @@
-"""How right the places' rooms and the doorways between them are, against the true floor plan."""
+"""Accuracy of rooms and doorways compared with the true floor plan."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from roomgraph.semantics.graph.graph import SemanticGraph
 
 @dataclass(frozen=True, slots=True)
 class Matching:
-    """Things found against true ones.
+    """Detections matched to true items.
 
     Attributes
     ----------

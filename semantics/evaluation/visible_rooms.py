@@ -1,4 +1,4 @@
-"""What an image shows: which rooms the surfaces in it belong to."""
+"""Visible rooms: the rooms that the surfaces in an image belong to."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Beliefs about the nodes of a graph, given each other: neighbours are mostly of one kind."""
+"""Belief propagation over the nodes of a graph: neighbours are mostly of one kind."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def propagate(
     fixed: Mapping[int, int] | None = None,
     steps: int = 200,
 ) -> FloatArray:
-    """Return the belief (N, K) of each node in its kind, given the looks of all nodes.
+    """Return the belief (N, K) of each node, given the predictions of all nodes.
 
     A Markov field over the graph: two nodes joined by an edge are of different kinds with the
     chance of having left a kind of place on the way, ``1 - exp(-length / change_m)``, and then as

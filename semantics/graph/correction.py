@@ -1,4 +1,4 @@
-"""What a person says of a place, taken into the graph."""
+"""Corrections of a graph by the user."""
 
 from __future__ import annotations
 

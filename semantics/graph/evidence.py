@@ -1,4 +1,4 @@
-"""Why a node has its label: the runners-up, the frames that voted, the words that spoke."""
+"""Evidence for a node's label: other labels, voting frames, visual words."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Key = TypeVar("Key", str, int)
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """What speaks for a label, small enough to keep at every node of a graph.
+    """The evidence for a label, small enough to keep at every node of a graph.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Evidence:
 
     @classmethod
     def of(cls, label: FrameLabel, labels: LabelSpace) -> Evidence:
-        """Return the evidence for a frame's label; empty where nothing was looked at."""
+        """Return the evidence for a frame's label; empty if no frame was classified."""
         if not len(label.probabilities):
             return cls()
         order = np.argsort(-label.probabilities, kind="stable")[:TOP]

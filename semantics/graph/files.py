@@ -206,6 +206,6 @@ def _read_doorway(values: dict[str, Any]) -> Doorway:
 
 def _not_understood(path: Path, error: Exception) -> SemanticsError:
     return SemanticsError(
-        "semantic graph not understood", where=path, expected=f"{SCHEMA} version {VERSION}",
+        "invalid semantic graph", where=path, expected=f"{SCHEMA} version {VERSION}",
         got=f"{type(error).__name__} {error}",
     )  # fmt: skip

@@ -24,7 +24,7 @@ class EdgeKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class GraphNode:
-    """A spot that the camera passed.
+    """A position on the path of the camera.
 
     Attributes
     ----------

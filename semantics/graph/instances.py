@@ -1,4 +1,4 @@
-"""Telling rooms of the same kind apart: office1, office2."""
+"""Separating places of the same kind: office1, office2."""
 
 from __future__ import annotations
 
@@ -23,16 +23,21 @@ class InstanceSettings(Settings):
     """
 
     min_difference: float = Field(
-        0.4, ge=0, le=1.5, description="L2 distance of unit signatures above which views differ"
+        0.4,
+        ge=0,
+        le=1.5,
+        description="L2 distance of unit signatures above which two views are of different places",
     )
     min_distance_m: float = Field(
-        5.0, ge=0, description="metres from all nodes of a place beyond which it is another one"
+        5.0,
+        ge=0,
+        description="distance from all nodes of a place beyond which a new place begins, metres",
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """What was seen where.
+    """A position with the signature of its view.
 
     Attributes
     ----------
@@ -73,7 +78,7 @@ class PlaceNames:
         self._count: Counter[str] = Counter()
 
     def name(self, stay: int) -> str:
-        """Return the place that a stay is thought to be in."""
+        """Return the place that a stay is assigned to."""
         return self._stays[stay].place
 
     def assign(
@@ -112,7 +117,7 @@ class PlaceNames:
     def _find(
         self, distances: NDArray[np.float64], stays: Sequence[int], follows_last: bool
     ) -> int:
-        """Return the stay that hangs together with a node, a new one if there is none."""
+        """Return the stay that a node continues, or a new one."""
         near = distances <= self.settings.min_distance_m
         if follows_last and near[-1]:
             return stays[-1]

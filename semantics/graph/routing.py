@@ -1,4 +1,4 @@
-"""Ways from place to place, over the topological graph."""
+"""Routes between places, over the topological graph."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Leg:
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """A way from node to node of the graph, place by place."""
+    """A route from node to node of the graph, place by place."""
 
     nodes: tuple[int, ...]
     length_m: float
@@ -66,7 +66,7 @@ class Route:
 
 
 def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
-    """Return the nodes that a name may mean, one for each place it may mean.
+    """Return the nodes that a name may refer to, one for each place.
 
     Parameters
     ----------
@@ -83,7 +83,9 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
         Nothing is called so, or the coordinates lie outside of all that was mapped.
     """
     if not graph.nodes:
-        raise SemanticsError("no nodes to go between", expected="a graph of a tracked run")
+        raise SemanticsError(
+            "the graph has no nodes", expected="the graph of a run with tracked frames"
+        )
     if _COORDINATES.fullmatch(name.strip()):
         return (_nearest(graph, [float(value) for value in name.split(",")], name),)
     wanted = plain(name)
@@ -96,7 +98,7 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
         known.pop(UNKNOWN, None)
         raise SemanticsError(
             "no such place", where=name, expected=", ".join(known),
-            hint="or give coordinates: x,y in the map frame, x,y,z in the world",
+            hint="or give coordinates: x,y in the map frame or x,y,z in the world frame",
         )  # fmt: skip
     return tuple(_middle(graph, place) for place in places)
 
@@ -104,7 +106,7 @@ def nodes_of(graph: SemanticGraph, name: str) -> tuple[int, ...]:
 def find_route(
     graph: SemanticGraph, start: str, goal: str, grid: OccupancyGrid | None = None
 ) -> Route:
-    """Return the shortest way, in metres, from what `start` may mean to what `goal` may mean.
+    """Return the shortest route from `start` to `goal`.
 
     It leads along the way walked, and across rooms over their free floor.
 
@@ -136,8 +138,8 @@ def find_route(
     reached = [node for node in goals if node in lengths]
     if not reached:
         raise SemanticsError(
-            "no way is known", where=f"from {start} to {goal}",
-            expected="places joined in the graph", got="parts of the map that do not touch",
+            "no known route", where=f"from {start} to {goal}",
+            expected="places connected in the graph", got="parts of the map that are not connected",
         )  # fmt: skip
     nearest = min(reached, key=lambda node: (lengths[node], node))
     path = tuple(int(node) for node in paths[nearest])
@@ -146,7 +148,7 @@ def find_route(
 
 
 def _across(graph: SemanticGraph, grid: OccupancyGrid) -> Iterator[tuple[int, int, float]]:
-    """Yield nodes of one place that free floor in it joins, and how far it is over that floor."""
+    """Yield nodes of a place connected by free floor, with the distance over the floor."""
     free = ndimage.distance_transform_edt(grid.cells == FREE) * grid.cell_m > _CLEARANCE_M
     xy = se3.transform(grid.T_map_world, graph.positions)[:, :2]
     cells = np.floor((xy - grid.origin_xy) / grid.cell_m).astype(np.intp)[:, ::-1]
@@ -171,7 +173,7 @@ def _across(graph: SemanticGraph, grid: OccupancyGrid) -> Iterator[tuple[int, in
 def _lengths(
     floor: NDArray[np.bool_], rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> FloatArray:
-    """Return how far (N, N) cells are from each other over the floor, in cells; inf if at all."""
+    """Return the distances (N, N) between cells over the floor, in cells; inf if unconnected."""
     number = np.cumsum(floor).reshape(floor.shape) - 1
     starts, ends, lengths = [], [], []
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
@@ -191,12 +193,12 @@ def _lengths(
 
 
 def plain(name: str) -> str:
-    """Return a name without what people write differently: case, blanks, underscores."""
+    """Return a name normalised for comparison: without case, blanks and underscores."""
     return re.sub(r"[\s_-]+", "", name).lower()
 
 
 def upright(graph: SemanticGraph) -> FloatArray:
-    """Return where the nodes are (N, 3) in the map frame, z up."""
+    """Return the positions (N, 3) of the nodes in the map frame, z up."""
     return _upright(graph, graph.positions)
 
 
@@ -239,7 +241,7 @@ def _middle(graph: SemanticGraph, place: str) -> int:
 
 
 def _legs(graph: SemanticGraph, path: tuple[int, ...], steps: list[float]) -> tuple[Leg, ...]:
-    """Cut a way where the place changes; the border lies halfway between the two nodes."""
+    """Split a route where the place changes, halfway between two nodes."""
     positions = upright(graph)
     labels = {node.place: node.label for node in graph.nodes}
     legs, length = [], 0.0
@@ -257,13 +259,13 @@ def _legs(graph: SemanticGraph, path: tuple[int, ...], steps: list[float]) -> tu
 
 
 def _door(graph: SemanticGraph, here: str, there: str, border: FloatArray) -> Doorway | None:
-    """Return the doorway between two places that is nearest to where the way crosses."""
+    """Return the doorway between two places that is nearest to the route."""
     doors = [door for door in graph.doorways if set(door.places) == {here, there}]
     return min(doors, key=lambda d: float(np.linalg.norm(d.position_map - border)), default=None)
 
 
 def _turn_deg(positions: FloatArray, border: int) -> float:
-    """Return how a way (N, 2) turns between its nodes `border` and the next, left positive.
+    """Return the turn of a route (N, 2) between node `border` and the next, left positive.
 
     Compared are the directions over two nodes before and after; at the ends, over the border.
     """

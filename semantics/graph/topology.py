@@ -26,16 +26,18 @@ _ROUNDING_M = 1e-9
 
 
 class TopologySettings(Settings):
-    """When nodes are dropped and joined."""
+    """When nodes are added and joined."""
 
     node_distance_m: float = Field(
-        1.0, gt=0, description="metres travelled between nodes (paper: d = 1)"
+        1.0, gt=0, description="distance travelled between nodes (paper: d = 1), metres"
     )
     revisit_radius_m: float = Field(
-        0.6, ge=0, description="a node this near to an older one is joined to it"
+        0.6,
+        ge=0,
+        description="maximum distance between a node and an older one to join them, metres",
     )
     revisit_gap: int = Field(
-        5, ge=2, description="nodes that have to lie between the two along the path"
+        5, ge=2, description="minimum number of nodes between the two along the path"
     )
     instances: InstanceSettings = InstanceSettings()
 
@@ -87,7 +89,7 @@ class TopologicalMap:
     def update(
         self, frame_label: FrameLabel, anchor: Anchor | None, T_world_keyframe: Poses
     ) -> bool:
-        """Follow the path by one frame; return whether a node was dropped. Lost frames don't count.
+        """Extend the path by one frame; return whether a node was added. Ignores lost frames.
 
         Parameters
         ----------
@@ -122,7 +124,7 @@ class TopologicalMap:
         return True
 
     def snapshot(self, T_world_keyframe: Poses, partial: bool = False) -> SemanticGraph:
-        """Return the graph as it lies in the world now.
+        """Return the graph at its present positions in the world.
 
         Parameters
         ----------
@@ -150,7 +152,7 @@ class TopologicalMap:
         return SemanticGraph(self.labels, nodes, self._edges(positions))
 
     def keep(self, keyframes: Container[int]) -> None:
-        """Forget the nodes that hang on other keyframes: those have no place in the world."""
+        """Remove the nodes anchored to other keyframes, which have no known pose in the world."""
         self._nodes = [node for node in self._nodes if node.anchor.keyframe in keyframes]
 
     def _drop(self, frame_label: FrameLabel, anchor: Anchor, T_world_keyframe: Poses) -> None:
@@ -203,7 +205,7 @@ class TopologicalMap:
 
 
 def _position(anchor: Anchor, T_world_keyframe: Poses) -> NDArray[np.float64]:
-    """Return where the camera of `anchor` is now (3,), metres."""
+    """Return the present position (3,) of the camera of `anchor`, metres."""
     try:
         T = T_world_keyframe[anchor.keyframe]
     except KeyError as error:

@@ -1,4 +1,4 @@
-"""What is in a graph: its places, how sure they are, and when the camera was in them."""
+"""Summary of a graph: its places, their probabilities, and the visits to them."""
 
 from __future__ import annotations
 

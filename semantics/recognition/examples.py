@@ -1,4 +1,4 @@
-"""Images whose place is known, to learn from and to test on."""
+"""Labelled images, for training and testing."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def folder_examples(root: Path) -> list[Example]:
 
 
 def _refuse_level_above(folder: Path) -> None:
-    """Raise where a class's folder holds no image itself, but several folders of images."""
+    """Raise if the folder of a class has no images, but several folders of images."""
     inside = list(folder.iterdir())
     if any(path.suffix.lower() in IMAGE_SUFFIXES for path in inside):
         return
@@ -103,7 +103,7 @@ def sequence_examples(sequence: sequences.Sequence) -> list[Example]:
     examples = list(_visits(sequence)) if sequence.places is not None else []
     if not examples:
         raise SemanticsError(
-            "the sequence does not say which rooms it shows", where=sequence.root,
+            "the sequence has no room labels", where=sequence.root,
             expected="a places.csv with timestamp,label[,instance] near the frames' stamps",
         )  # fmt: skip
     return examples

@@ -1,4 +1,4 @@
-"""Training images that a place model keeps, and learning more kinds of place beside them."""
+"""Training images kept in a place model, and training on further labels with them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from roomgraph.semantics.recognition.model import Exemplars, PlaceModel
 def choose_exemplars(
     vectors: NDArray[Any], labels: Sequence[str], groups: Sequence[str], maximum: int
 ) -> Exemplars | None:
-    """Return at most so many vectors (N, D) of each label, evenly spread; None for a maximum of 0.
+    """Return up to `maximum` vectors of each label, evenly spread; None for a maximum of 0.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def choose_exemplars(
 def learn_more(
     model: PlaceModel, vectors: Sequence[NDArray[Any]], label: str, group: str, seed: int = 0
 ) -> PlaceModel:
-    """Return a model that knows more images of a label, which may be new to it.
+    """Return a model trained on further images of a label, which may be new.
 
     The descriptor stays as it is; the classifier is learned again from the exemplars that the
     model keeps and the new ones.
@@ -69,7 +69,7 @@ def learn_more(
             hint="train it again",
         )  # fmt: skip
     if not len(vectors):
-        raise SemanticsError("nothing to learn from", expected="an image of the place")
+        raise SemanticsError("no image to learn from", expected="an image of the place")
     known, count = model.exemplars, len(vectors)
     exemplars = Exemplars(
         np.vstack([known.vectors, np.asarray(vectors, dtype=np.float16)]),
@@ -87,7 +87,7 @@ def learn_more(
 
 
 def _extended(transitions: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Return transitions with one kind more, if there is one: to and from it evenly."""
+    """Return transitions extended by a new kind, if there is one, with uniform probabilities."""
     if len(transitions) == count:
         return transitions
     table = np.full((count, count), 1.0 / max(1, count - 1))

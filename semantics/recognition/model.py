@@ -1,4 +1,4 @@
-"""A learned place model: from an image to the kind of place."""
+"""A trained place model: from an image to the kind of place."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WORDS = 5
 
 @dataclass(frozen=True, slots=True)
 class Exemplars:
-    """Training images as the classifier saw them, to learn more beside them later.
+    """Vectors of training images, for later training on further labels.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Exemplars:
 
 @dataclass(frozen=True, slots=True)
 class PlacePrediction:
-    """What one image looks like.
+    """The prediction for one image.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class PlacePrediction:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlaceModel:
-    """A descriptor, a classifier and their labels; which ones, it does not know.
+    """A descriptor, a classifier and their labels.
 
     Attributes
     ----------
@@ -110,11 +110,11 @@ class PlaceModel:
 
     @property
     def features(self) -> FeatureSettings | None:
-        """How local features are to be extracted; None if the model looks at none."""
+        """Settings of the local features; None if the model uses none."""
         return self.descriptor.features
 
     def can_look(self, colour: Image | None, features: Features | None = None) -> bool:
-        """Whether there is anything of an image for this model to look at."""
+        """Whether an image has what this model needs."""
         return self.descriptor.can_describe(colour, features)
 
     def predict(self, colour: Image | None, features: Features | None = None) -> PlacePrediction:
@@ -135,12 +135,12 @@ class PlaceModel:
         return self.prediction(self._description(colour, features))
 
     def vector(self, colour: Image | None, features: Features | None = None) -> NDArray[Any] | None:
-        """Return what the classifier sees of an image (see `predict`), None if too little."""
+        """Return the vector of an image (see `predict`), None for too few features."""
         description = self._description(colour, features)
         return None if description is None else description.vector
 
     def prediction(self, description: Description | None) -> PlacePrediction:
-        """Return what the classifier says of a description, None if there is too little to see."""
+        """Return the prediction for a description, None without a description."""
         probabilities = np.zeros(len(self.labels))
         if description is None:
             probabilities[0] = 1.0
@@ -169,7 +169,7 @@ class PlaceModel:
         return None if prepared is None else self.descriptor.describe(prepared)
 
     def _words(self, vector: NDArray[Any], winner: int) -> tuple[tuple[int, float], ...]:
-        """Return the words that spoke most for a class against the mean of the others."""
+        """Return the words that contributed most to a class against the mean of the others."""
         shares = self.classifier.contributions(vector, winner)
         by_word = None if shares is None else self.descriptor.words(shares)
         if by_word is None:

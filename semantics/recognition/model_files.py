@@ -33,7 +33,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
-    """Write a model to the folder `path`, whole or not at all.
+    """Write a model to the folder `path`, completely or not at all.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def save_model(path: Path, model: PlaceModel, overwrite: bool = False) -> None:
 
 
 def refuse_other(path: Path, overwrite: bool) -> None:
-    """Raise where a model may not be written: to be asked before it is learned.
+    """Raise if a model may not be written; call this before training.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def refuse_other(path: Path, overwrite: bool) -> None:
         raise SemanticsError("the model exists already", where=path, hint="add --overwrite")
     if not (path / DOCUMENT).is_file() and (not path.is_dir() or any(path.iterdir())):
         raise SemanticsError(
-            "refusing to replace what is not a place model", where=path,
+            "refusing to overwrite what is not a place model", where=path,
             expected=f"a folder with {DOCUMENT}", hint="choose another output",
         )  # fmt: skip
 
@@ -94,7 +94,7 @@ def load_model(path: str | Path) -> PlaceModel:
         return _build(content, arrays)
     except (KeyError, TypeError, ValueError, ValidationError) as error:
         raise SemanticsError(
-            "place model not understood", where=path, got=f"{type(error).__name__} {error}",
+            "invalid place model", where=path, got=f"{type(error).__name__} {error}",
             hint="train it again",
         ) from error  # fmt: skip
 
@@ -139,7 +139,7 @@ def _build(content: dict[str, Any], arrays: Arrays) -> PlaceModel:
     descriptor = _descriptor(content["descriptor"], _part(arrays, _DESCRIPTOR))
     classifier = _classifier(content["classifier"], _part(arrays, _CLASSIFIER))
     if set(classifier.classes_) != set(labels.names[1:]):
-        raise ValueError("classes that are not the labels")
+        raise ValueError("classes that differ from the labels")
     if classifier.n_features_in_ != descriptor.length:
         raise ValueError(
             f"a classifier of {classifier.n_features_in_} numbers behind a descriptor of "

@@ -1,4 +1,4 @@
-"""Many images at once, as far as a descriptor describes them without learning."""
+"""Parallel preparation of images by a descriptor."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """An image as training and evaluation keep it.
+    """A prepared image, for training and evaluation.
 
     Attributes
     ----------

@@ -10,7 +10,7 @@ from roomgraph.slam.features.extraction import FeatureSettings
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """What a place model is made of, and how local features are extracted for it."""
+    """Descriptor and classifier of a place model, and its local features."""
 
     training: TrainingSettings
     features: FeatureSettings

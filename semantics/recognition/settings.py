@@ -1,4 +1,4 @@
-"""What a place model is made of, and what it is learned from."""
+"""Settings of the training of a place model."""
 
 from __future__ import annotations
 
@@ -23,22 +23,26 @@ else:
 
 
 class TrainingSettings(Settings):
-    """What a place model is made of, and what it is learned from."""
+    """Settings of the training of a place model."""
 
     descriptor: str = Field("fisher", description=f"one of {', '.join(DESCRIPTORS)}")
     classifier: str = Field("linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
     stride: int = Field(1, ge=1, description="every n-th image of each label is used")
     max_images_per_label: int = Field(
-        200, ge=2, description="maximum number of images of a label, evenly spread"
+        200, ge=2, description="maximum number of images of each label, evenly spread"
     )
-    threads: int = Field(2, ge=1, le=64, description="images read and described at once")
+    threads: int = Field(
+        2, ge=1, le=64, description="number of images read and described in parallel"
+    )
     reject: float = Field(
         0.01, ge=0, lt=1,
-        description="share of held-out images that may be called unknown to keep novel ones out",
+        description="share of held-out images that may be labelled unknown so that novel places "
+        "are rejected",
     )  # fmt: skip
     exemplars: int = Field(
         100, ge=0,
-        description="images of each label kept in the model, so that it can learn others later",
+        description="number of images of each label kept in the model, so that it can learn other"
+        " labels later",
     )  # fmt: skip
     descriptors: DescriptorSettings = DescriptorSettings()
     classifiers: ClassifierSettings = ClassifierSettings()
@@ -54,7 +58,7 @@ class TrainingSettings(Settings):
         return known_name(name, CLASSIFIERS)
 
     def make_descriptor(self, features: FeatureSettings) -> ImageDescriptor:
-        """Return the chosen descriptor, which has learned nothing yet.
+        """Return the selected descriptor, untrained.
 
         Parameters
         ----------
@@ -65,6 +69,6 @@ class TrainingSettings(Settings):
         return DESCRIPTORS[self.descriptor](settings, features)
 
     def make_classifier(self) -> PlaceClassifier:
-        """Return the chosen classifier, which has learned nothing yet."""
+        """Return the selected classifier, untrained."""
         settings: Settings = getattr(self.classifiers, self.classifier)
         return CLASSIFIERS[self.classifier](**settings.model_dump())

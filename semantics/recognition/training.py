@@ -1,4 +1,4 @@
-"""Learning a place model from labelled images."""
+"""Training of a place model on labelled images."""
 
 from __future__ import annotations
 
@@ -118,14 +118,14 @@ def _check_labels(images: Sequence[Prepared]) -> Counter[str]:
     counts = Counter(image.example.label for image in images)
     if len(counts) < 2:
         raise SemanticsError(
-            "too few labels to tell apart", expected="readable images of two labels or more",
+            "too few labels to train on", expected="readable images of at least two labels",
             got=", ".join(counts) or "none",
         )  # fmt: skip
     return counts
 
 
 def groups_of(images: Sequence[Prepared]) -> list[str]:
-    """Return what is held out together: whole sequences if every label is in two or more.
+    """Return the groups to hold out: whole sequences if every label is in two or more.
 
     Day and night of one building, or two laps, show the same rooms: a visit held out alone would
     be judged by a classifier that knows the room from the other sequence.

@@ -1,4 +1,4 @@
-"""Which kind of place follows which, counted along labelled walks."""
+"""Transition probabilities between kinds of place, counted along labelled walks."""
 
 from __future__ import annotations
 

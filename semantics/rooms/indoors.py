@@ -1,4 +1,4 @@
-"""What of the floor is indoors: where it was seen to be free, and where nobody looked."""
+"""Indoor floor: the observed free cells, and unobserved cells within rooms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _AWAY = 2.5
 def interior(
     volume: OccupancyVolume, settings: RegionSettings
 ) -> tuple[BoolImage, BoolImage, BoolImage]:
-    """Return which cells (R, C) are indoors, which solid from floor to top, which under a lintel.
+    """Return the indoor cells, the wall cells and the cells under a lintel, each (R, C).
 
     Over a table or under a shelf there is room, too: what counts is sight through the column at
     any height.
@@ -50,7 +50,7 @@ def interior(
 
 
 def _filled(inside: BoolImage, wall: BoolImage) -> BoolImage:
-    """Fill what nobody looked at in the middle of a room: holes with next to no wall around."""
+    """Fill unobserved holes in the middle of a room: those with almost no wall around."""
     holes, count = ndimage.label(~inside & ~wall)
     result = inside.copy()
     for i, window in enumerate(ndimage.find_objects(holes, count), 1):
@@ -68,7 +68,7 @@ def _filled(inside: BoolImage, wall: BoolImage) -> BoolImage:
 def bridged(
     inside: BoolImage, width: NDArray[np.float64], gap_m: float, cell_m: float
 ) -> BoolImage:
-    """Close gaps of sight that lie away from walls."""
+    """Fill unobserved gaps away from walls."""
     radius = max(1, round(gap_m / 2 / cell_m))
     padded = np.pad(inside, radius)
     near = ndimage.distance_transform_edt(~padded) <= radius
@@ -80,7 +80,7 @@ def bridged(
 def completed(
     regions: RegionImage, wall: BoolImage, settings: RegionSettings, cell_m: float
 ) -> RegionImage:
-    """Complete each region (R, C) within its rectangle by what hangs together with it unseen.
+    """Complete each region (R, C) in its rectangle by connected unobserved cells.
 
     Corners beside a door are seldom looked at. What is neither wall nor another region belongs to
     the room as far as its seen part reaches along both directions of the walls. Shallow blocks at
@@ -114,7 +114,7 @@ def completed(
 
 
 def _firm(seen: BoolImage, wall: BoolImage) -> tuple[slice, slice]:
-    """Return the rectangle around what was seen, less its ragged edge.
+    """Return the rectangle around the observed cells, without ragged edges.
 
     Noise puts a wall a cell or two further out here and there: a line of cells with more of the
     room's wall than of its floor is not the room's. What reaches further is an alcove and stays.
@@ -139,7 +139,7 @@ def _firm_span(is_room: BoolImage, start: int) -> slice:
 
 
 def _closets(rest: BoolImage, others: BoolImage, deepest: int, squareness: float) -> BoolImage:
-    """Return those pieces of a rectangle's rest that are blocks, and too shallow for a room.
+    """Return the blocks in the rest of a rectangle that are too shallow for a room.
 
     A block next to another room may be that one's, or the wall between both.
     """
@@ -154,7 +154,7 @@ def _closets(rest: BoolImage, others: BoolImage, deepest: int, squareness: float
 
 
 def _corners(full: BoolImage, seen: BoolImage) -> BoolImage:
-    """Return what was seen with those unseen pieces of `full` that are no more than corners of it.
+    """Return the observed cells with the unobserved pieces of `full` that are only corners.
 
     Cut off by a straight edge of sight, a corner's area is a quarter of the edge's square at most;
     what is larger than the square is a room of its own behind a gap.

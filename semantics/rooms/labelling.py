@@ -1,4 +1,4 @@
-"""The places that regions of the floor are, by the votes of the frames taken in them."""
+"""Room labelling: labels of regions, from the votes of the frames taken in them."""
 
 from __future__ import annotations
 
@@ -21,29 +21,32 @@ FloatArray = NDArray[np.float64]
 
 
 class RoomSettings(Settings):
-    """How places and regions of the floor go together."""
+    """How regions of the floor get their labels."""
 
     regions: RegionSettings = RegionSettings()
     min_agreement: float = Field(
-        0.7, gt=0, le=1, description="of a region's votes, the share that makes it one place"
+        0.7,
+        gt=0,
+        le=1,
+        description="share of a region's votes above which the whole region gets one label",
     )
     min_part: float = Field(
         0.2,
         gt=0,
         le=1,
-        description="of a region's votes, the share that a part of it needs",
+        description="minimum share of a region's votes for a part of it to get its own label",
     )
     min_part_m2: float = Field(
         8.0,
         ge=0,
-        description="floor in one piece that a part of a region needs: a room's, not a corner's",
+        description="minimum connected floor area for such a part, square metres",
     )
-    min_doorway_m: float = Field(0.4, ge=0, description="narrower gaps are no doorways")
+    min_doorway_m: float = Field(0.4, ge=0, description="narrower gaps are not doorways, metres")
 
 
 @dataclass(frozen=True, slots=True)
 class Vote:
-    """What frame number `frame` says of the spot that it was taken from (world, metres)."""
+    """The vote of a frame for the label of its position (world, metres)."""
 
     frame: int
     position_world: FloatArray
@@ -53,7 +56,7 @@ class Vote:
 
 @dataclass(slots=True)
 class LabelledRegion:
-    """A place to be: its number in the image of regions, its label, and its nodes."""
+    """A labelled region: its number in the image of regions, its label, and its nodes."""
 
     number: int
     label: str
@@ -71,7 +74,7 @@ def label_rooms(
     cell_m: float,
     settings: RoomSettings,
 ) -> tuple[list[LabelledRegion], Regions]:
-    """Make a part of each visited region, or several; return them with their images.
+    """Label each visited region, or several parts of it; return them with their images.
 
     A part of an open plan is a room's worth of floor in one piece. Labels that hold less, here and
     there, are what views of the one room were mistaken for.
@@ -116,7 +119,7 @@ def _parted(
     region: NDArray[np.bool_],
     least_cells: float,
 ) -> tuple[list[str], NDArray[np.intp]]:
-    """Return the labels that hold enough of a region, and which of them each cell (R, C) has.
+    """Return the labels with enough area in a region, and the label of each cell (R, C).
 
     The one most voted for always does.
     """
@@ -157,7 +160,7 @@ def _nearest_label(
     kept: list[str],
     shape: tuple[int, ...],
 ) -> NDArray[np.intp]:
-    """Return which of the labels `kept` the node nearest to each cell (R, C) has."""
+    """Return the index in `kept` of the label of the node nearest to each cell (R, C)."""
     if len(kept) == 1:
         return np.zeros(shape, dtype=np.intp)
     away = []

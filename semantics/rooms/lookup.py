@@ -1,4 +1,4 @@
-"""Looking up what lies where on the floor of a finished graph."""
+"""Lookup of rooms by position in a finished graph."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _FINER, _SIMPLIFIED = 3, 1.5
 
 
 def outline_of(mask: NDArray[np.bool_], volume: OccupancyVolume) -> FloatArray:
-    """Return the polygon (N, 2) around cells that hang together, metres, anticlockwise."""
+    """Return the polygon (N, 2) around connected cells, metres, anticlockwise."""
     image = np.kron(mask, np.ones((_FINER, _FINER))).astype(np.uint8)
     outlines, _ = cv2.findContours(image, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     longest = max(outlines, key=len)
@@ -32,7 +32,7 @@ def area_m2(mask: NDArray[np.bool_], volume: OccupancyVolume) -> float:
 
 
 def centre_of(mask: NDArray[np.bool_], volume: OccupancyVolume) -> FloatArray:
-    """Return the spot (2,) next to the middle that is far from all walls, metres."""
+    """Return the point (2,) near the middle that is far from all walls, metres."""
     depth = ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
     inner = np.argwhere(depth >= _INNERMOST * depth.max())
     middle = np.argwhere(mask).mean(axis=0)
@@ -41,7 +41,7 @@ def centre_of(mask: NDArray[np.bool_], volume: OccupancyVolume) -> FloatArray:
 
 
 def largest_piece(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the largest of the pieces that cells fall into."""
+    """Return the largest connected component of cells."""
     pieces, count = ndimage.label(mask)
     if count <= 1:
         return mask

@@ -1,4 +1,4 @@
-"""Giving places their floor, and joining them by doorways, once a run's map is finished."""
+"""Room polygons of places, and doorways between them, from a finished map."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 def with_rooms(
     graph: SemanticGraph, floor: FloorAnalysis, votes: Sequence[Vote], settings: RoomSettings
 ) -> SemanticGraph:
-    """Return the graph with rooms and doorways, its nodes at the place that they lie in.
+    """Return the graph with rooms and doorways, and each node assigned to its room.
 
     All that lies in one room belongs to one place, whatever a single view looked like: this mends
     what a view through a door into the next room got wrong, and a room entered by two doors or
@@ -127,7 +127,7 @@ def _placed(
     names: Sequence[str],
     is_here: NDArray[np.bool_],
 ) -> tuple[GraphNode, ...]:
-    """Put each node into its part; one that lies in none goes with the node before or after it."""
+    """Assign each node to its region; one outside all regions follows its neighbour in time."""
     of_node = {i: k for k, part in enumerate(labelled) for i in part.nodes}
     known = np.array(sorted(of_node), dtype=np.intp)
     taken = set(names)

@@ -1,4 +1,4 @@
-"""Rooms as regions of the floor: free space cut where it is narrow, as doors are."""
+"""Segmentation of free space into rooms at narrow passages such as doors."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Regions:
 def segment(
     volume: OccupancyVolume, votes: Mapping[tuple[int, int], Weights], settings: RegionSettings
 ) -> Regions:
-    """Cut the floor into rooms.
+    """Segment the floor into rooms.
 
     Free space is flooded from its widest spots downwards (a watershed on the distance transform;
     Bormann et al., 2016, section III-B). Two basins that meet become one unless the passage between
@@ -81,7 +81,7 @@ def _merge(
     settings: RegionSettings,
     cell_m: float,
 ) -> RegionImage:
-    """Join basins, the widest passage first, that no door and no narrowing separates."""
+    """Merge basins that neither a door nor a narrowing separates, the widest passage first."""
     labels = {b: defaultdict[str, float](float) for b in peaks}
     for cell, counts in votes.items():
         if basins[cell]:
@@ -127,7 +127,7 @@ def _first(weights: Weights) -> str | None:
 
 
 def _connected(regions: RegionImage) -> RegionImage:
-    """Make a region of its own of every part of a region that hangs together."""
+    """Turn each connected component of a region into a separate region."""
     result = np.zeros_like(regions)
     for region in (int(r) for r in np.unique(regions) if r):
         pieces, _ = ndimage.label(regions == region)
@@ -138,7 +138,7 @@ def _connected(regions: RegionImage) -> RegionImage:
 def _without_small(
     regions: RegionImage, visited: set[tuple[int, int]], settings: RegionSettings, cell_m: float
 ) -> RegionImage:
-    """Give small regions to the neighbour with the longest common border; drop lone ones."""
+    """Merge small regions into the neighbour with the longest common border; drop isolated ones."""
     regions = regions.copy()
     here = {int(regions[cell]) for cell in visited}
     while True:

@@ -1,4 +1,4 @@
-"""Flooding an image of widths from its widest spots: the basins of a watershed."""
+"""Watershed on an image of widths, flooded from its widest points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEIGHBOURS = np.ones((3, 3), dtype=bool)
 
 
 def flood(width: NDArray[np.float64], cell_m: float) -> tuple[RegionImage, dict[int, float]]:
-    """Return basins (R, C) around the widest spots, and how wide each is there (half, metres).
+    """Return basins (R, C) around the widest points, and the half width of each there, metres.
 
     A spot that is not a cell's diagonal wider than the way to a wider one is no basin of its own.
     """
@@ -37,7 +37,7 @@ def flood(width: NDArray[np.float64], cell_m: float) -> tuple[RegionImage, dict[
 
 
 def spread(regions: RegionImage, where: BoolImage) -> RegionImage:
-    """Give each cell of `where` the region nearest to it among those it hangs together with."""
+    """Assign each cell of `where` to the nearest region that it is connected to."""
     if not regions.any():
         return np.where(where, regions, 0)
     nearest = ndimage.distance_transform_edt(

@@ -1,4 +1,4 @@
-"""Temporal model ``filter``: one does not step from a kitchen into a bathroom."""
+"""Temporal model ``filter``: a hidden Markov model of the kind of place."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LEAST_WEIGHT = 0.1
 
 
 class PlaceFilter(TemporalModel):
-    """A hidden Markov model: which kind of place the camera is in, from all looks so far.
+    """A hidden Markov model of the kind of place, given all predictions so far.
 
     The states are the kinds of place. The chance of having left one grows with the way walked
     since the last look, ``1 - exp(-way / change_m)``; where to follows `transitions`, which are
@@ -46,7 +46,7 @@ class PlaceFilter(TemporalModel):
         self._belief: FloatArray | None = None
 
     def advance(self, look: Look) -> None:
-        """Take a look for good: from now on, it is known with its past."""
+        """Add a prediction to the past, for good."""
         probabilities = look.prediction.probabilities[None, 1:]
         (moves,), (seen,) = (
             self._moves([look.way_m]), self._evidence(probabilities, [look.way_m])
@@ -89,7 +89,7 @@ class PlaceFilter(TemporalModel):
     def _step(
         self, belief: FloatArray | None, moves: FloatArray, evidence: FloatArray
     ) -> FloatArray:
-        """Return the belief (K,) after walking and looking."""
+        """Return the belief (K,) after a step and an observation."""
         found = evidence if belief is None else (belief @ moves) * evidence
         return np.asarray(found / found.sum())
 

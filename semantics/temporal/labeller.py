@@ -1,4 +1,4 @@
-"""Labels for frames: each image's prediction, then what the frames around it say."""
+"""Labels of frames: from each image's prediction and those of neighbouring frames."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class FrameLabel:
 
 
 class PlaceLabeller:
-    """Labels frames by the frames around each, as a temporal model says (see `TEMPORAL_MODELS`).
+    """Labels frames with a temporal model of neighbouring frames (see `TEMPORAL_MODELS`).
 
     Not every frame need be looked at: those that come with nothing to look at take the label of
     the frames around them. Of the `window` frames around, those that were looked at decide; where
@@ -86,18 +86,18 @@ class PlaceLabeller:
 
     @property
     def uses_features(self) -> bool:
-        """Whether frames are to come with their local features."""
+        """Whether frames need local features."""
         return self.model is not None and self.model.features is not None
 
     def process(self, frame: FrameInput) -> list[FrameLabel]:
-        """Take the next frame, look at it if it shows anything; return those now labelled."""
+        """Process the next frame; return the frames labelled by now."""
         if self.model is None:
             return [FrameLabel(frame.index, frame.stamp_s)]
         looks = self.model.can_look(frame.colour, frame.features)
         return self.take(frame, self.model.predict(frame.colour, frame.features) if looks else None)
 
     def take(self, frame: FrameInput, prediction: PlacePrediction | None) -> list[FrameLabel]:
-        """Take the next frame with what it alone looks like, None if it was not looked at."""
+        """Add the next frame with its own prediction, None if it was not classified."""
         if prediction is not None:
             way_m = self._odometer.step(frame.position_world, prediction.view)
             self._looks.append(Look(self._taken, frame.index, way_m, prediction))
@@ -106,7 +106,7 @@ class PlaceLabeller:
         return self._release()
 
     def finish(self) -> list[FrameLabel]:
-        """Return the last frames, labelled by what there is."""
+        """Return the last frames, labelled with the evidence so far."""
         labels = [self._label(order, frame) for order, frame in self._waiting]
         self._waiting.clear()
         self._looks.clear()
@@ -129,7 +129,7 @@ class PlaceLabeller:
         return after >= needed or age >= self.settings.max_delay
 
     def _forget(self) -> None:
-        """Drop looks that no frame to come will ask: too old, and enough younger ones."""
+        """Remove predictions that no later frame needs."""
         oldest = self._waiting[0][0] if self._waiting else self._taken
         before = sum(look.order < oldest - self.settings.window // 2 for look in self._looks)
         surplus = before - min(self.settings.min_voters, self.settings.window)

@@ -1,4 +1,4 @@
-"""What is known of a frame before its neighbours in time are asked."""
+"""Predictions of single frames, before temporal models."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FrameInput:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What a frame alone looks like.
+    """The prediction for a single frame.
 
     Attributes
     ----------

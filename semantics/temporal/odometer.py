@@ -1,4 +1,4 @@
-"""How far the camera went between two looks, with or without knowing where it is."""
+"""Distance travelled between two looks, with or without known poses."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ INDEPENDENT_M = 0.5
 
 
 class Odometer:
-    """Measures the way from look to look: by the poses, or else by how the view changes.
+    """Measures the distance between looks: from poses, or else from the change of the view.
 
     Views are unit vectors (Fisher vectors, histograms); two that have nothing in common, by their
     cosine, count as `INDEPENDENT_M` apart. The views that follow one are compared with that one
@@ -29,7 +29,7 @@ class Odometer:
     def step(
         self, position: NDArray[np.float64] | None, view: NDArray[np.floating] | None
     ) -> float:
-        """Return the way to the next look, metres; the first is independent of all before.
+        """Return the distance to the next look, metres; the first is independent of all before.
 
         Parameters
         ----------

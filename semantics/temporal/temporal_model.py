@@ -1,4 +1,4 @@
-"""What a temporal model is: from the looks around a frame to its label."""
+"""The interface of temporal models: from the looks around a frame to its label."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Belief:
 
 
 class TemporalModel(Protocol):
-    """Labels a frame by what the frames around it look like.
+    """Labels a frame from the predictions of neighbouring frames.
 
     Parameters
     ----------
@@ -36,11 +36,11 @@ class TemporalModel(Protocol):
     def __init__(self, transitions: NDArray[np.float64], change_m: float) -> None: ...
 
     def advance(self, look: Look) -> None:
-        """Take a look for good: `belief` will not be given it again."""
+        """Add a look to the past: `belief` will not get it again."""
         ...
 
     def belief(self, order: int, looks: Sequence[Look], voters: Sequence[Look]) -> Belief:
-        """Return what is believed of a frame.
+        """Return the belief about a frame.
 
         Parameters
         ----------

@@ -54,7 +54,7 @@ class Measured:
 
     @property
     def constraints(self) -> list[Constraint]:
-        """All that was measured."""
+        """All measured constraints."""
         return [self.constraint] if self.by_depth is None else [self.constraint, self.by_depth]
 
 
@@ -95,7 +95,7 @@ class KeyframeAligner:
         return self._measure(keyframe, other, located.motion, is_loop=True)
 
     def _at_a_glance(self, view: View, other: Keyframe) -> Motion | None:
-        """Return a motion that the strongest features agree on: most wrong candidates end here."""
+        """Return a motion from the strongest features; it rejects most wrong candidates."""
         known = np.flatnonzero(np.isfinite(other.points[:, 2]))[:GLANCE]
         pairs = match(
             other.features.descriptors[known], view.features.descriptors[:GLANCE],
@@ -109,7 +109,7 @@ class KeyframeAligner:
         )
 
     def _surface(self, keyframe: Keyframe) -> Surface:
-        """Return a keyframe's surface; it is aligned with several others one after the other."""
+        """Return a keyframe's surface, cached because it is aligned with several others in turn."""
         if self._latest is None or self._latest[0] != keyframe.id:
             self._latest = keyframe.id, surface_of_image(keyframe.image, self.noise)
         return self._latest[1]
@@ -122,7 +122,7 @@ class KeyframeAligner:
     def _measure(
         self, keyframe: Keyframe, other: Keyframe, motion: RefinedMotion, is_loop: bool
     ) -> Measured:
-        """Make constraints of a motion by features and of the planes that both keyframes see."""
+        """Build constraints from a feature-based motion and from planes that both keyframes see."""
         T_keyframe_other, information = motion.T_camera_reference, motion.information
         constraint = Constraint(
             other.id, keyframe.id, se3.inverse(T_keyframe_other), information, is_loop
@@ -137,7 +137,7 @@ class KeyframeAligner:
         T_keyframe_other: FloatArray,
         information: FloatArray,
     ) -> Constraint | None:
-        """Align what both keyframes see in depth; None where that contradicts the features."""
+        """Align the depth that both keyframes see; None if that contradicts the features."""
         if self.icp.on == "nothing":
             return None
         if self.icp.on == "planes":

@@ -1,4 +1,4 @@
-"""Keyframes made in the background, and what the mapper has found so far."""
+"""Creation of keyframes in the background, and the results of the mapper so far."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ IN_FLIGHT = 4
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A keyframe in the making: what it shows, and where it is believed to be until it is done."""
+    """A keyframe in progress: its content, and its estimated pose until it is done."""
 
     id: int
     view: View
@@ -51,7 +51,7 @@ class _Pending:
 
 
 class Backend:
-    """Makes keyframes in two threads, in order, and keeps a copy of the map to track by.
+    """Creates keyframes in two threads, in order, and keeps a copy of the map for tracking.
 
     What tracking sees changes only when it asks: with the n-th keyframe handed in, the results up
     to the (n - `IN_FLIGHT`)-th are taken in, whether or not more are there. So the outcome does
@@ -88,26 +88,26 @@ class Backend:
         self._next = 0
 
     def start(self, view: View, T_world_camera: FloatArray) -> int:
-        """Make the first keyframe of a map, or of a new sub-map; return its id."""
+        """Create the first keyframe of a map or of a new sub-map; return its id."""
         return self._submit(
             view, None, T_world_camera,
             lambda keyframe: self.mapper.start(keyframe, view, T_world_camera),
         )  # fmt: skip
 
     def insert(self, view: View, estimate: Estimate) -> int:
-        """Make a keyframe of a view whose pose is known; return its id."""
+        """Create a keyframe from a view with known pose; return its id."""
         return self._submit(
             view, estimate.reference, se3.inverse(estimate.T_camera_reference),
             lambda keyframe: self.mapper.insert(keyframe, view, estimate),
         )  # fmt: skip
 
     def finish(self) -> None:
-        """Wait for all keyframes in the making and take their results in."""
+        """Wait for all keyframes in progress and collect their results."""
         while self._pending:
             self._take()
 
     def around(self, reference: int) -> LocalMap:
-        """Return the points of a keyframe and of those near it that look the same way.
+        """Return the points of a keyframe and of its covisible neighbours.
 
         Goes by what is known of the map now: nothing is waited for but features.
         """
@@ -116,21 +116,21 @@ class Backend:
         return local_map([(self._described(k), self.poses[k]) for k in chosen])
 
     def thumbnail(self, keyframe: int) -> RangeImage:
-        """Return what a keyframe, done or in the making, shows in few cells."""
+        """Return the thumbnail of a keyframe, done or in progress."""
         return self._described(keyframe).thumbnail
 
     def known_points(self, keyframe: int) -> FloatArray:
-        """Return where a keyframe's features lie in its camera (N, 3), of those with depth."""
+        """Return a keyframe's features with depth as points in its camera frame (N, 3)."""
         points = self._described(keyframe).points
         return points[np.isfinite(points[:, 2])]
 
     def new_closures(self) -> tuple[LoopClosure, ...]:
-        """Return the loops that became known since last asked."""
+        """Return the loop closures found since the last call."""
         found, self._new_closures = tuple(self._new_closures), []
         return found
 
     def _linked(self, reference: int) -> set[int]:
-        """Return the keyframes linked to one; of one in the making, those that are likely to be.
+        """Return the keyframes linked to one; for one in progress, those likely to be linked.
 
         These are the others on the way back to one that is done, what hangs on all these, and what
         that one is linked to.
@@ -151,7 +151,7 @@ class Backend:
         return (way | self._neighbours[done]) - {reference}
 
     def _described(self, keyframe: int) -> _Pending | Keyframe:
-        """Return a keyframe, done or in the making."""
+        """Return a keyframe, done or in progress."""
         making = next((pending for pending in self._pending if pending.id == keyframe), None)
         return making or self.keyframes[keyframe]
 
@@ -186,7 +186,7 @@ class Backend:
         self._chain()
 
     def _abandon(self) -> None:
-        """Give up the keyframes in the making, after one that failed."""
+        """Discard the keyframes in progress after one has failed."""
         for pending in self._pending:
             pending.update.cancel()
         # The map is at rest only once what runs already has come to its end.
@@ -194,7 +194,7 @@ class Backend:
         self._pending.clear()
 
     def _chain(self) -> None:
-        """Put the keyframes in the making where they are believed to be."""
+        """Update the estimated poses of the keyframes in progress."""
         for pending in self._pending:
             T = pending.T_reference_keyframe
             if pending.reference is not None:

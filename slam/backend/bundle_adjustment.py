@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Observations:
-    """What cameras see of landmarks; each camera sees a landmark at most once.
+    """Observations of landmarks by cameras; each camera sees a landmark at most once.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Observations:
         return len(self.cameras)
 
     def take(self, rows: NDArray[np.intp]) -> Observations:
-        """Return the chosen ones."""
+        """Return the selected observations."""
         return Observations(
             self.cameras[rows], self.landmarks[rows], self.pixels[rows], self.depths[rows]
         )
@@ -79,7 +79,7 @@ def adjust(
     noise: SensorNoise,
     iterations: int = 5,
 ) -> Adjusted:
-    """Move cameras and landmarks to where the observations fit best.
+    """Adjust cameras and landmarks to fit the observations best.
 
     Gauss-Newton on two pixels and an inverse depth an observation, with Geman and McClure's
     kernel; landmarks are eliminated first (Schur complement; Triggs et al., 2000, section 6.1),

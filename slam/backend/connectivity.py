@@ -1,4 +1,4 @@
-"""Which keyframes hang together: the pose graph without its poses."""
+"""Connectivity of keyframes: the pose graph without its poses."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import heapq
 
 
 class Connections:
-    """Keyframes, the ways between those that are linked, and the components that they form.
+    """Keyframes, the path lengths between linked ones, and their connected components.
 
     A component is named after its root, the keyframe that it is held by: its oldest. Keyframes
     that hang on nothing held yet are loose.
@@ -42,7 +42,7 @@ class Connections:
         return list(self._ways[keyframe])
 
     def connect(self, first: int, second: int, metres: float) -> list[int]:
-        """Connect two; return the keyframes of the younger component if it joins two held ones."""
+        """Connect two keyframes; return those of the younger component if both were fixed."""
         self._ways[first].setdefault(second, []).append(metres)
         self._ways[second].setdefault(first, []).append(metres)
         ends = {self._component[first], self._component[second]}
@@ -60,7 +60,7 @@ class Connections:
         return []
 
     def disconnect(self, first: int, second: int, metres: float) -> bool:
-        """Disconnect two; return whether a component falls in two, of which both are held."""
+        """Disconnect two keyframes; return whether this splits a component into two fixed ones."""
         for end, other in ((first, second), (second, first)):
             self._ways[end][other].remove(metres)
             if not self._ways[end][other]:
@@ -77,7 +77,7 @@ class Connections:
         return True
 
     def ways_from(self, keyframe: int, limit: float, goal: int | None = None) -> dict[int, float]:
-        """Return the keyframes within `limit` metres along constraints, and how far (Dijkstra).
+        """Return the keyframes within `limit` metres along constraints, with distances (Dijkstra).
 
         With a goal, the search ends there.
         """

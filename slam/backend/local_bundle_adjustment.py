@@ -23,13 +23,24 @@ Poses = Mapping[int, FloatArray]
 class LocalBundleAdjustmentSettings(Settings):
     """How many keyframes are adjusted together."""
 
-    enabled: bool = Field(True, description="adjust keyframes and landmarks together (bundles)")
-    size: int = Field(8, ge=2, le=50, description="latest keyframes that may move")
-    held: int = Field(6, ge=1, le=50, description="older ones that see the same, held")
-    landmarks: int = Field(
-        800, ge=50, description="landmarks adjusted, about: those that most keyframes see"
+    enabled: bool = Field(
+        True, description="adjust keyframes and landmarks together (local bundle adjustment)"
     )
-    min_shared: int = Field(15, ge=6, description="landmarks shared with the others, at least")
+    size: int = Field(
+        8, ge=2, le=50, description="maximum number of latest keyframes that are adjusted"
+    )
+    held: int = Field(
+        6, ge=1, le=50, description="maximum number of covisible older keyframes, held fixed"
+    )
+    landmarks: int = Field(
+        800,
+        ge=50,
+        description="approximate number of landmarks adjusted; those seen by most keyframes are "
+        "chosen",
+    )
+    min_shared: int = Field(
+        15, ge=6, description="minimum number of landmarks that a keyframe shares with the others"
+    )
 
 
 class LocalBundleAdjustment:
@@ -48,7 +59,7 @@ class LocalBundleAdjustment:
         self._count = 0
 
     def add(self, keyframe: Keyframe) -> None:
-        """Take a keyframe in; nothing of it is matched yet."""
+        """Add a keyframe without matches."""
         self._landmark[keyframe.id] = np.full(len(keyframe.features), -1, dtype=np.intp)
 
     def match(self, keyframe: Keyframe, other: Keyframe, rows: Matches) -> None:
@@ -68,7 +79,7 @@ class LocalBundleAdjustment:
     def adjust(
         self, newest: int, around: set[int], keyframes: Mapping[int, Keyframe], T_world: Poses
     ) -> dict[int, FloatArray]:
-        """Return T_world_keyframe (4, 4) of the latest keyframes, adjusted, and of those held.
+        """Return T_world_keyframe (4, 4) of the adjusted and of the fixed keyframes.
 
         Parameters
         ----------
@@ -132,7 +143,7 @@ class LocalBundleAdjustment:
         return np.array([T_world[k] for k in owners.tolist()])[which]
 
     def _observations(self, chosen: list[int]) -> tuple[IntArray, IntArray, IntArray]:
-        """Return camera (index into chosen), feature and landmark of what at least two see."""
+        """Return camera (index into chosen), feature and landmark of those seen at least twice."""
         cameras, rows, ids = [], [], []
         for i, k in enumerate(chosen):
             known = np.flatnonzero(self._landmark[k] >= 0)
@@ -161,7 +172,7 @@ class LocalBundleAdjustment:
         return ids[ids >= 0]
 
     def _make(self, owner: int, positions: FloatArray) -> IntArray:
-        """Make landmarks of points (N, 3) in a keyframe's camera; return their ids."""
+        """Create landmarks from points (N, 3) in a keyframe's camera frame; return their ids."""
         first, self._count = self._count, self._count + len(positions)
         if self._count > len(self._owner):
             room = max(1024, self._count)
@@ -173,7 +184,7 @@ class LocalBundleAdjustment:
 
 
 def _fewest(views: IntArray, landmarks: int) -> int:
-    """Return how many views a landmark needs, so that not many more than wanted have them."""
+    """Return the minimum number of views per landmark that gives about the wanted number."""
     with_views = np.cumsum(np.bincount(views)[::-1])[::-1]
     too_many = np.flatnonzero(with_views[2:] > 2 * landmarks)
     return 2 if not len(too_many) else int(too_many[-1]) + 3

@@ -1,4 +1,4 @@
-"""Finding loops: which keyframes to compare with, and which comparisons to believe."""
+"""Loop closing: candidates for a keyframe, and their verification."""
 
 from __future__ import annotations
 
@@ -20,28 +20,46 @@ FloatArray = NDArray[np.float64]
 
 
 class LoopSettings(Settings):
-    """When two keyframes are tried, and when they close a loop."""
+    """Selection and acceptance of loop candidates."""
 
-    enabled: bool = Field(True, description="look for loops")
+    enabled: bool = Field(True, description="search for loop closures")
     min_way_m: float = Field(
         0.0,
         ge=0,
         le=1000,
-        description="way along constraints in between, at least: nearer ones gain little",
+        description="minimum path length along constraints between two keyframes for a loop, "
+        "metres",
     )
-    candidates: int = Field(2, ge=0, description="tried by appearance, for each keyframe")
-    neighbours: int = Field(2, ge=0, description="tried by position, for each keyframe")
+    candidates: int = Field(
+        2, ge=0, description="maximum number of candidates by appearance, for each keyframe"
+    )
+    neighbours: int = Field(
+        2, ge=0, description="maximum number of candidates by position, for each keyframe"
+    )
     min_similarity: float = Field(
-        0.3, ge=0, description="of the similarity to the keyframe before, the least to be tried"
+        0.3,
+        ge=0,
+        description="minimum similarity, as a share of that to the previous keyframe, for a "
+        "keyframe to be tried",
     )
-    max_distance_m: float = Field(2.0, gt=0, description="tried by position up to this far")
-    max_angle_deg: float = Field(45.0, gt=0, le=180, description="and axes up to this apart")
-    min_inliers: int = Field(30, ge=10, description="matches that must agree")
+    max_distance_m: float = Field(
+        2.0, gt=0, description="maximum distance of a candidate by position, metres"
+    )
+    max_angle_deg: float = Field(
+        45.0,
+        gt=0,
+        le=180,
+        description="maximum angle between optical axes for a candidate by position, degrees",
+    )
+    min_inliers: int = Field(30, ge=10, description="minimum number of inlier matches")
     min_agreement: float = Field(
-        0.7, ge=0, le=1, description="of points in view of both, the least that depth confirms"
+        0.7, ge=0, le=1, description="minimum share of points in both views whose depth agrees"
     )
     min_correlation: float = Field(
-        0.7, ge=-1, le=1, description="of the grey levels of the surface that both show, at least"
+        0.7,
+        ge=-1,
+        le=1,
+        description="minimum correlation of grey levels on the surface that both views show",
     )
     verification: LoopVerificationSettings = LoopVerificationSettings()
 
@@ -64,7 +82,7 @@ class LoopCloser:
         graph: PoseGraph,
         known: set[int],
     ) -> list[Measured]:
-        """Return the loop constraints to take, now that a keyframe is in the graph, and index it.
+        """Return the loop constraints to add for a new keyframe of the graph, and index it.
 
         A loop that others confirm later is returned with these, so not all need be the new
         keyframe's.
@@ -91,12 +109,12 @@ class LoopCloser:
         return taken
 
     def alike(self, view: View, count: int) -> list[int]:
-        """Return the keyframes that look most like a view, for relocalisation."""
+        """Return the keyframes most similar to a view, for relocalisation."""
         words = self.index.words_of(view.features.descriptors, grow=False)
         return [keyframe for keyframe, _ in self.index.rank(words, before=2**62)[:count]]
 
     def is_sound(self, inliers: int, T_view_other: FloatArray, view: View, other: Keyframe) -> bool:
-        """Whether a motion between look-alikes rests on enough matches, on depth and on looks."""
+        """Whether enough matches, depth and appearance support a motion between similar views."""
         if inliers < self.settings.min_inliers:
             return False
         common = overlap(other.thumbnail, view.thumbnail, T_view_other)
@@ -115,7 +133,7 @@ class LoopCloser:
         ][: self.settings.candidates]
 
     def _nearby(self, keyframe: int, graph: PoseGraph, known: set[int]) -> list[int]:
-        """Return old keyframes that should see the same by their pose, the nearest first."""
+        """Return old keyframes whose poses suggest that they see the same, the nearest first."""
         others, T_world_other = graph.stacked()
         T = se3.inverse(graph[keyframe]) @ T_world_other
         distance = np.linalg.norm(T[:, :3, 3], axis=1)

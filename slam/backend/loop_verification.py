@@ -1,4 +1,4 @@
-"""Which loops to believe: by the correction they ask for, and by what others say."""
+"""Loop verification: by the size of the correction, and by agreement with other loops."""
 
 from __future__ import annotations
 
@@ -15,37 +15,55 @@ FloatArray = NDArray[np.float64]
 
 
 class LoopVerificationSettings(Settings):
-    """How much drift is likely, and how much possible."""
+    """Bounds on likely and on possible drift."""
 
     slack_m: float = Field(
-        0.1, gt=0, le=100, description="correction that is always believed, metres"
+        0.1, gt=0, le=100, description="correction that is always accepted, metres"
     )
     slack_deg: float = Field(
-        3.0, gt=0, le=180, description="correction that is always believed, degrees"
+        3.0, gt=0, le=180, description="correction that is always accepted, degrees"
     )
     drift_share: float = Field(
-        0.01, gt=0, le=1, description="likely drift, as a share of the way in between"
+        0.01,
+        gt=0,
+        le=1,
+        description="likely drift, as a share of the path length between the two keyframes",
     )
     drift_deg_per_m: float = Field(
-        0.2, gt=0, le=90, description="likely rotation for each metre in between, degrees"
+        0.2, gt=0, le=90, description="likely rotation drift for each metre of path, degrees"
     )
     doubt: float = Field(
-        3.0, ge=1, le=100, description="so many times the likely drift is possible, if confirmed"
+        3.0,
+        ge=1,
+        le=100,
+        description="multiple of the likely drift that is still possible if other loops confirm it",
     )
     confirmations: int = Field(
-        2, ge=0, le=20, description="other keyframes that must ask for the same correction"
+        2,
+        ge=0,
+        le=20,
+        description="number of other keyframes that must ask for the same correction",
     )
     join_way_m: float = Field(
-        1.0, ge=0, le=100, description="way over which loops agree before they join two sub-maps"
+        1.0,
+        ge=0,
+        le=100,
+        description="distance over which loops must agree before they join two sub-maps, metres",
     )
     join_turn_deg: float = Field(
-        60.0, ge=0, le=180, description="or turn, of both sides, that shows other things: at least"
+        60.0,
+        ge=0,
+        le=180,
+        description="or minimum turn of both sub-maps' cameras, so that they see different "
+        "things, degrees",
     )
-    patience: int = Field(30, ge=1, description="keyframes for which a loop waits to be confirmed")
+    patience: int = Field(
+        30, ge=1, description="number of keyframes for which a loop waits for confirmation"
+    )
 
 
 class LoopVerifier:
-    """Lets likely loops pass, and holds possible ones until others agree with them.
+    """Accepts likely loops, and holds possible ones until others agree with them.
 
     Look-alike places (the doors of a corridor, its two ends) match well but lie elsewhere: the
     correction that they ask for is larger than the way in between can have caused. A correction
@@ -60,7 +78,7 @@ class LoopVerifier:
         self.held: list[Measured] = []
 
     def admit(self, measured: Measured, graph: PoseGraph, view_deg: float = 0.0) -> list[Measured]:
-        """Return the loops to take: this one, with the held ones it confirms, or none.
+        """Return the loops to accept: this one and the held ones that it confirms, or none.
 
         `view_deg` is the camera's field of view across: turned as far, it sees nothing of what it
         saw.
@@ -90,7 +108,7 @@ class LoopVerifier:
         return taken
 
     def _is_wide(self, agreeing: list[Measured], graph: PoseGraph, view_deg: float) -> bool:
-        """Whether loops rest on more than one thing that looks the same.
+        """Whether loops are based on more than one similar-looking object.
 
         Successive keyframes that see the same poster agree with each other, but are no witnesses of
         one another: the camera must have moved on, or have turned to something else, and have met
@@ -108,7 +126,7 @@ class LoopVerifier:
         return turn >= max(self.settings.join_turn_deg, view_deg)
 
     def _can_be_drift(self, constraint: Constraint, graph: PoseGraph, times: float) -> bool:
-        """Whether the shortest way of constraints is long enough to have drifted so far."""
+        """Whether drift along the shortest path of constraints can explain the correction."""
         believed = se3.inverse(graph[constraint.first]) @ graph[constraint.second]
         metres, degrees = _size(se3.inverse(believed) @ constraint.T_first_second)
         s = self.settings
@@ -121,7 +139,7 @@ class LoopVerifier:
         )
 
     def _agree(self, one: Constraint, other: Constraint, graph: PoseGraph) -> bool:
-        """Whether two loops ask for the same: the cycle through both must close."""
+        """Whether two loops ask for the same correction: the cycle through both must close."""
         for end, end_too in ((one.first, other.first), (one.second, other.second)):
             if graph.component_of(end) != graph.component_of(end_too):
                 return False
@@ -138,7 +156,7 @@ class LoopVerifier:
 
 
 def _size(motion: FloatArray) -> tuple[float, float]:
-    """Return a motion's metres and degrees."""
+    """Return the translation (metres) and rotation (degrees) of a motion."""
     metres = float(np.linalg.norm(motion[:3, 3]))
     return metres, float(np.degrees(se3.rotation_angle(motion)))
 

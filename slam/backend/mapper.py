@@ -1,4 +1,4 @@
-"""The keyframes, the graph that holds them together, and how a new one joins."""
+"""Keyframes, their pose graph, and the insertion of new ones."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class MapUpdate:
-    """What became known with a keyframe.
+    """The changes of the map after a keyframe.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Mapper:
         self._neighbours: defaultdict[int, set[int]] = defaultdict(set)
 
     def describe(self, keyframe_id: int, view: View) -> Keyframe:
-        """Make a keyframe of a view; may run ahead in a thread of its own.
+        """Create a keyframe from a view; may run ahead in a separate thread.
 
         Of the map it only changes the vocabulary, which grows on the way: views are to come in
         order.
@@ -102,13 +102,13 @@ class Mapper:
         )
 
     def start(self, keyframe: Keyframe, view: View, T_world_camera: FloatArray) -> MapUpdate:
-        """Take in the first keyframe of the map, or of a sub-map that nothing joins to it yet."""
+        """Insert the first keyframe of the map, or of a sub-map not yet joined to it."""
         self.graph.add_keyframe(keyframe.id, T_world_camera, starts_component=True)
         self.local_bundle.add(keyframe)
         return self._finish(view, keyframe)
 
     def insert(self, keyframe: Keyframe, view: View, estimate: Estimate) -> MapUpdate:
-        """Take in a keyframe whose pose is known; connect it to those around."""
+        """Insert a keyframe with known pose; connect it to its neighbours."""
         T_world_camera = self.graph[estimate.reference] @ estimate.anchor.T_keyframe_camera
         self.graph.add_keyframe(keyframe.id, T_world_camera)
         self.local_bundle.add(keyframe)
@@ -119,7 +119,7 @@ class Mapper:
         return self._finish(view, keyframe)
 
     def _adjust(self, newest: int) -> None:
-        """Adjust the latest keyframes on their landmarks, and take their constraints from that."""
+        """Run local bundle adjustment and derive the constraints from it."""
         if not self.local_bundle.settings.enabled:
             return
         self.graph.optimise()
@@ -131,7 +131,7 @@ class Mapper:
             self.graph.measure_again(adjusted, since=min(set(adjusted) & set(latest)))
 
     def _finish(self, view: View, keyframe: Keyframe) -> MapUpdate:
-        """Close loops and bring all poses up to date."""
+        """Close loops and update all poses."""
         self.keyframes[keyframe.id] = keyframe
         known = self._neighbours[keyframe.id].union(
             *(self._neighbours[k] for k in self._neighbours[keyframe.id])
@@ -156,7 +156,7 @@ class Mapper:
         )
 
     def around(self, reference: int) -> LocalMap:
-        """Return the points of a keyframe and of those linked to it that look the same way."""
+        """Return the points of a keyframe and of its covisible neighbours."""
         T_world = self.graph.poses
         chosen = covisible(
             reference, self._neighbours[reference], T_world, self.settings.neighbours
@@ -164,7 +164,7 @@ class Mapper:
         return local_map([(self.keyframes[k], T_world[k]) for k in chosen])
 
     def _constraints(self, view: View, keyframe: Keyframe, estimate: Estimate) -> list[Constraint]:
-        """Measure the motion to each keyframe around; add how it was tracked unless by these."""
+        """Return constraints to neighbouring keyframes; without any, that of tracking."""
         located = self.aligner.tracker.guided(
             view, self.around(estimate.reference), estimate.T_camera_reference, scale=0.25
         )
@@ -193,7 +193,7 @@ class Mapper:
         self._neighbours[constraint.second].add(constraint.first)
 
     def _forget(self, rejected: Constraint) -> None:
-        """Drop a loop that turned out wrong."""
+        """Remove a loop closure that turned out wrong."""
         ends = rejected.second, rejected.first
         self.closures = [c for c in self.closures if (c.keyframe, c.matched_keyframe) != ends]
         between = {rejected.first, rejected.second}

@@ -1,4 +1,4 @@
-"""The pose graph over keyframes, in one part or several that no constraint joins yet."""
+"""The pose graph of keyframes, with one or several unconnected components."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ REFRESH_EVERY = 16
 
 
 class PoseGraph:
-    """Keyframe poses that agree best with all constraints between them.
+    """The optimal keyframe poses under all constraints between them.
 
     Keyframe ids count up, and serve as keys. The graph may consist of several components
     (sub-maps): the first keyframe of each is held at the pose it is added with. The first
@@ -81,7 +81,7 @@ class PoseGraph:
 
     @property
     def components(self) -> int:
-        """How many sub-maps there are that no constraint joins."""
+        """Number of sub-maps not connected by constraints."""
         return len(self._connections.roots)
 
     def component_of(self, keyframe: int) -> int:
@@ -105,17 +105,17 @@ class PoseGraph:
         return self._connections.members_of(component)
 
     def path_length(self, first: int, second: int, limit: float) -> float:
-        """Return the shortest way along constraints, metres; infinite if beyond `limit` metres."""
+        """Return the shortest path along constraints, metres; infinite beyond `limit` metres."""
         return self._connections.ways_from(first, limit, second).get(second, float("inf"))
 
     def around(self, keyframe: int, metres: float) -> set[int]:
-        """Return the keyframes no further than so many metres along constraints."""
+        """Return the keyframes within a distance in metres along constraints."""
         return set(self._connections.ways_from(keyframe, metres))
 
     def add_keyframe(
         self, keyframe: int, T_world_keyframe: FloatArray, starts_component: bool = False
     ) -> None:
-        """Add a keyframe where it is believed to be.
+        """Add a keyframe at its estimated pose.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class PoseGraph:
             self._touched.update((keyframe, *self._connections.connected(keyframe)))
 
     def measure_again(self, T_world: Mapping[int, FloatArray], since: int) -> None:
-        """Take the motion between keyframes from poses that were adjusted together.
+        """Update constraints between keyframes from jointly adjusted poses.
 
         Only constraints by features that close no loop are changed.
 
@@ -187,7 +187,7 @@ class PoseGraph:
                 self._numbers[place] = self._solver.add_constraint(self.constraints[place])
 
     def optimise(self) -> list[Constraint]:
-        """Take the new keyframes and constraints in and update all poses.
+        """Add new keyframes and constraints to the solver and update all poses.
 
         Returns
         -------
@@ -239,7 +239,7 @@ class PoseGraph:
         return bisect_left(self._ids, keyframe)
 
     def _move(self, moving: list[int], constraint: Constraint) -> None:
-        """Move keyframes as a whole to where a constraint from elsewhere puts them."""
+        """Move keyframes rigidly to satisfy a constraint to another sub-map."""
         T_world_second = self[constraint.first] @ constraint.T_first_second
         moved = T_world_second @ se3.inverse(self[constraint.second])
         moved = se3.inverse(moved) if constraint.first in moving else moved
@@ -248,7 +248,7 @@ class PoseGraph:
         self._is_stale = True
 
     def _update(self) -> None:
-        """Take in what changes little."""
+        """Update the solver with small changes."""
         self._solver.update(thoroughly=False)
         self._updates += 1
         if self._updates % REFRESH_EVERY == 0:
@@ -259,7 +259,7 @@ class PoseGraph:
         self._touched.clear()
 
     def _settle(self) -> None:
-        """Take in what moves the map, with a new solver where parts move as a whole."""
+        """Update the solver with large changes; rebuild it if parts move rigidly."""
         if self._is_stale:
             self._solver = Solver(self.settings)
             for keyframe, T in zip(self._ids, self._T, strict=True):
@@ -275,7 +275,7 @@ class PoseGraph:
         self._touched.clear()
 
     def _contradicted(self) -> list[Constraint]:
-        """Return the loops that stay far from the optimum; only the worst, which bend others."""
+        """Return the loops with large residuals; only the worst, which distort the others."""
         loops = [constraint for constraint in self.constraints if constraint.is_loop]
         if not loops:
             return []

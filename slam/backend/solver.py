@@ -1,4 +1,4 @@
-"""gtsam's iSAM2 behind a small interface: poses, priors and constraints in, the best poses out."""
+"""A small interface to iSAM2 of gtsam: poses, priors and constraints in, optimal poses out."""
 
 from __future__ import annotations
 
@@ -22,28 +22,41 @@ PRIOR_SIGMA = 1e-6
 
 
 class PoseGraphSettings(Settings):
-    """How constraints between keyframes are weighed, and which are thrown out again."""
+    """Weights of constraints between keyframes, and rejection of bad ones."""
 
     kernel: Literal["huber", "cauchy", "none"] = Field(
-        "huber", description="robust kernel on every constraint"
+        "huber", description="robust kernel of every constraint"
     )
-    kernel_width: float = Field(3.0, gt=0, le=100, description="in standard deviations")
+    kernel_width: float = Field(
+        3.0, gt=0, le=100, description="width of the robust kernel, standard deviations"
+    )
     sigma_rotation_rad: float = Field(
-        0.001, gt=0, le=1, description="error of a constraint beyond what its matches say, radians"
+        0.001,
+        gt=0,
+        le=1,
+        description="rotation error added to that estimated from a constraint's matches, radians",
     )
     sigma_translation_m: float = Field(
-        0.002, gt=0, le=1, description="error of a constraint beyond what its matches say, metres"
+        0.002,
+        gt=0,
+        le=1,
+        description="translation error added to that estimated from a constraint's matches, metres",
     )
     reject_width: float = Field(
         10.0,
         gt=0,
         le=1000,
-        description="a loop is rejected that stays this far from the optimum, "
-        "in standard deviations",
+        description="loops with a larger residual after optimisation are rejected, standard "
+        "deviations",
     )
-    iterations: int = Field(10, ge=1, le=100, description="of the solver after a loop, at most")
+    iterations: int = Field(
+        10, ge=1, le=100, description="maximum number of solver iterations after a loop closure"
+    )
     converged_m: float = Field(
-        1e-4, gt=0, le=0.1, description="iterations end when no keyframe moves further, metres"
+        1e-4,
+        gt=0,
+        le=0.1,
+        description="the solver stops when no keyframe moves further than this, metres",
     )
 
 
@@ -110,7 +123,7 @@ def deviations(
 
 
 class Solver:
-    """Keeps the poses that fit all factors best, incrementally (iSAM2; Kaess et al., 2012).
+    """Optimises poses incrementally (iSAM2; Kaess et al., 2012).
 
     Additions and removals wait for the next `update`.
     """
@@ -129,11 +142,11 @@ class Solver:
         self._count = 0
 
     def add_pose(self, key: int, T: FloatArray) -> None:
-        """Add an unknown pose, believed to be `T` (4, 4)."""
+        """Add an unknown pose with initial estimate `T` (4, 4)."""
         self._values.insert(key, gtsam.Pose3(T))
 
     def add_prior(self, key: int, T: FloatArray) -> int:
-        """Hold a pose at `T` (4, 4); return a number to remove that by."""
+        """Add a prior at `T` (4, 4); return a number to remove it by."""
         noise = gtsam.noiseModel.Isotropic.Sigma(6, PRIOR_SIGMA)
         return self._add(gtsam.PriorFactorPose3(key, gtsam.Pose3(T), noise))
 
@@ -142,11 +155,11 @@ class Solver:
         return self._add(factor_of(constraint, self.settings, robust=True))
 
     def remove(self, number: int) -> None:
-        """Take a factor of an earlier update out."""
+        """Remove a factor of an earlier update."""
         self._removed.append(self._index.pop(number))
 
     def update(self, thoroughly: bool) -> None:
-        """Take in what waits.
+        """Update with all waiting factors.
 
         One step is enough where the new poses follow from the old; `thoroughly` iterates until
         the poses rest.

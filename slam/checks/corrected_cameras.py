@@ -12,7 +12,7 @@ from roomgraph.slam.checks.registration import Alignment
 
 
 def registered(camera: Camera, alignment: Alignment) -> CameraCorrection | None:
-    """Return what lays depth on colour by an alignment of their images.
+    """Return the correction that registers depth to colour by an alignment of their images.
 
     As if a camera of another focal length had taken it from the same point: what that is off by
     (a Kinect's 25 mm) is right at the distance at which most outlines lie. None where the depth's
@@ -35,7 +35,7 @@ def registered(camera: Camera, alignment: Alignment) -> CameraCorrection | None:
 
 
 def refocused(camera: Camera, fx: float, fy: float) -> CameraCorrection:
-    """Return what gives a camera other focal lengths; depth stays on the pixels where it lies."""
+    """Return the correction to other focal lengths; depth keeps its pixels."""
     colour, depth = camera.intrinsics, camera.depth
     if depth is not None and np.array_equal(depth.T_colour_depth, np.eye(4)):
         own = depth.intrinsics

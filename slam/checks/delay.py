@@ -19,20 +19,26 @@ class DelaySettings(Settings):
     """How a delay between depth and colour images is found."""
 
     frames: int = Field(5, ge=1, le=30, description="longest delay searched, frames")
-    min_outline: int = Field(100, ge=10, description="outline pixels that an image needs to count")
-    min_windows: int = Field(5, ge=3, description="windows of frames needed for a report")
-    min_pairs: int = Field(2, ge=1, description="image pairs needed in a window for each delay")
+    min_outline: int = Field(
+        100, ge=10, description="minimum number of outline pixels for an image to count"
+    )
+    min_windows: int = Field(
+        5, ge=3, description="minimum number of windows of frames for a report"
+    )
+    min_pairs: int = Field(
+        2, ge=1, description="minimum number of image pairs in a window for each delay"
+    )
     min_score: float = Field(
-        0.3, gt=0, description="mean strength needed of the colour edges under depth outlines"
+        0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
     )
     min_gain: float = Field(
-        4.0, ge=2, description="gain in fit needed over no delay, standard errors"
+        4.0, ge=2, description="minimum gain in fit over no delay, standard errors"
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Delay:
-    """By how many frames the depth images come late (early, if negative), and the fit then."""
+    """Delay of the depth images in frames (negative: early), and the fit with it."""
 
     frames: int
     score: float

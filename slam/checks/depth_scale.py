@@ -1,4 +1,4 @@
-"""Whether the depth's unit can be right."""
+"""Check of the unit of the depth images."""
 
 from __future__ import annotations
 
@@ -23,10 +23,14 @@ class DepthScaleSettings(Settings):
     0.25 to 0.5 m (Kinect, Azure Kinect, RealSense D4xx) and reach 4 to 10 m.
     """
 
-    near_m: float = Field(0.25, gt=0, description="shortest distance measured, metres")
-    far_m: float = Field(10.0, gt=0, description="longest distance measured indoors, metres")
-    typical_min_m: float = Field(0.5, gt=0, description="smallest usual median depth, metres")
-    typical_max_m: float = Field(6.0, gt=0, description="largest usual median depth, metres")
+    near_m: float = Field(
+        0.25, gt=0, description="shortest distance that a sensor measures, metres"
+    )
+    far_m: float = Field(
+        10.0, gt=0, description="longest distance that is measured indoors, metres"
+    )
+    typical_min_m: float = Field(0.5, gt=0, description="smallest typical median depth, metres")
+    typical_max_m: float = Field(6.0, gt=0, description="largest typical median depth, metres")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What the checks of a sequence find."""
+"""Findings of the checks of a sequence."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Kind = Literal["depth scale", "intrinsics", "registration", "time offset"]
 
 @dataclass(frozen=True, slots=True)
 class CameraCorrection:
-    """A camera with which a finding should be gone, and words for what it changes."""
+    """A camera that should solve the problem, and a description of the change."""
 
     camera: Camera
     words: str
@@ -20,7 +20,7 @@ class CameraCorrection:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Something in a sequence that cannot be right.
+    """A problem found in a sequence.
 
     Attributes
     ----------

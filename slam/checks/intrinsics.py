@@ -1,4 +1,4 @@
-"""Whether a camera's numbers can belong to its images."""
+"""Check of the intrinsics against the size of the images."""
 
 from __future__ import annotations
 
@@ -22,10 +22,15 @@ class IntrinsicsSettings(Settings):
         0.15,
         gt=0,
         lt=0.5,
-        description="a principal point further off the centre is implausible",
+        description="a principal point further from the centre, as a share of the image's size, "
+        "is implausible",
     )
-    min_view_deg: float = Field(20, gt=0, lt=180, description="narrowest horizontal field of view")
-    max_view_deg: float = Field(140, gt=0, lt=180, description="widest horizontal field of view")
+    min_view_deg: float = Field(
+        20, gt=0, lt=180, description="narrowest plausible horizontal field of view, degrees"
+    )
+    max_view_deg: float = Field(
+        140, gt=0, lt=180, description="widest plausible horizontal field of view, degrees"
+    )
 
 
 def find_wrong_intrinsics(intrinsics: Intrinsics, settings: IntrinsicsSettings) -> Finding | None:

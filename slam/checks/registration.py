@@ -1,4 +1,4 @@
-"""Whether the depth image lies on the colour image."""
+"""Check of the alignment of depth and colour images."""
 
 from __future__ import annotations
 
@@ -25,19 +25,24 @@ class RegistrationSettings(Settings):
         0.1, gt=0, le=0.3, description="largest shift searched, as a share of the image's width"
     )
     scale_range: float = Field(
-        0.16, ge=0, le=0.4, description="largest change of size searched, as a share"
+        0.16, ge=0, le=0.4, description="largest change of scale searched, as a share"
     )
     tolerance: float = Field(
         0.015, gt=0, le=0.2,
-        description="displacement (rms) that is not reported, as a share of the image's width",
+        description="largest RMS displacement that is not reported, as a share of the image's "
+        "width",
     )  # fmt: skip
-    min_outline: int = Field(100, ge=10, description="outline pixels that a frame needs to count")
-    min_windows: int = Field(5, ge=4, description="windows of frames needed for a report")
+    min_outline: int = Field(
+        100, ge=10, description="minimum number of outline pixels for a frame to count"
+    )
+    min_windows: int = Field(
+        5, ge=4, description="minimum number of windows of frames for a report"
+    )
     min_score: float = Field(
-        0.3, gt=0, description="mean strength needed of the colour edges under depth outlines"
+        0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
     )
     min_gain: float = Field(
-        3.0, ge=2, description="gain in fit needed over no alignment, standard errors"
+        3.0, ge=2, description="minimum gain in fit over no alignment, standard errors"
     )
 
 
@@ -55,7 +60,7 @@ class Alignment:
         return np.asarray(self.scale * (pixels - middle) + middle + (self.dx, self.dy))
 
     def resized(self, factor: float) -> Alignment:
-        """Return the same for images so many times as large."""
+        """Return the alignment for scaled images."""
         return Alignment(self.scale, self.dx * factor, self.dy * factor)
 
     def displacement(self, shape: tuple[int, ...]) -> float:
@@ -66,7 +71,7 @@ class Alignment:
 
 @dataclass(frozen=True, slots=True)
 class Misplaced:
-    """The alignment that depth needs, in image pixels, and how well outlines then fit."""
+    """The required alignment of depth, in image pixels, and the fit of outlines with it."""
 
     alignment: Alignment
     score: float
@@ -90,7 +95,7 @@ def score(found: Outlines, alignment: Alignment | None = None) -> float:
 def find_misplacement(
     windows: Sequence[Sequence[Outlines]], settings: RegistrationSettings
 ) -> Misplaced | None:
-    """Return how depth lies beside colour, or None where it fits or nothing can be said.
+    """Return the misalignment of depth and colour; None if they fit or evidence is missing.
 
     Outlines of the foreground are edges in the colour image too, if the one lies on the other.
     Over all sizes and shifts, the correlation of both has its peak at the true alignment. It is

@@ -46,8 +46,10 @@ class CheckSettings(Settings):
         description="correct the camera where the images show how: align the depth images to the "
         "colour images, replace focal lengths that do not fit the images",
     )
-    windows: int = Field(10, ge=1, le=100, description="windows of successive frames checked")
-    window: int = Field(8, ge=1, le=100, description="frames in each window")
+    windows: int = Field(
+        10, ge=1, le=100, description="number of windows of successive frames that are checked"
+    )
+    window: int = Field(8, ge=1, le=100, description="number of frames in each window")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
     calibration: CalibrationSettings = CalibrationSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()
@@ -86,7 +88,7 @@ def check_sequence(
     scale = find_wrong_scale(evidence.depths_m, camera.depth_scale, settings.depth_scale)
     if scale is not None:
         hint = (
-            f"--depth-scale {scale.depth_scale:g} gives usual indoor distances"
+            f"--depth-scale {scale.depth_scale:g} gives typical indoor distances"
             if scale.depth_scale
             else "check the unit of the depth images (--depth-scale)"
         )

@@ -19,16 +19,27 @@ Detector = Literal["sift", "rootsift", "orb", "surf"]
 class FeatureSettings(Settings):
     """What is detected, and how finely."""
 
-    detector: Detector = Field("rootsift", description="sift, rootsift, orb, or surf where built")
-    max_features: int = Field(1000, ge=50, le=20000, description="strongest features kept a frame")
+    detector: Detector = Field(
+        "rootsift",
+        description="sift, rootsift, orb, or surf (only in builds of OpenCV that have it)",
+    )
+    max_features: int = Field(
+        1000,
+        ge=50,
+        le=20000,
+        description="maximum number of features per frame; the strongest are kept",
+    )
     contrast_threshold: float = Field(
         0.01, gt=0, le=0.2, description="SIFT's contrast threshold; higher keeps fewer features"
     )
     working_width: int = Field(
-        320, ge=80, description="images wider than this are halved before detection until they fit"
+        320,
+        ge=80,
+        description="wider images are halved before detection until they are no wider than this, "
+        "pixels",
     )
     min_features: int = Field(
-        200, ge=0, description="fewer on the halved image, and the whole one is searched"
+        200, ge=0, description="with fewer features on the halved image, the full image is searched"
     )
 
 
@@ -126,7 +137,7 @@ def _create(settings: FeatureSettings) -> Any:
             return cv2.xfeatures2d.SURF_create(100.0, extended=True)
         except (AttributeError, cv2.error) as error:
             raise SlamError(
-                "SURF is not in this build of OpenCV", where="features.detector",
+                "this build of OpenCV has no SURF", where="features.detector",
                 expected="sift, rootsift or orb", got="surf",
                 hint="SURF needs OpenCV built with OPENCV_ENABLE_NONFREE",
             ) from error  # fmt: skip

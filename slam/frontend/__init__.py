@@ -1,1 +1,1 @@
-"""Where each frame is: by optical flow, by features, by depth alone."""
+"""Tracking of each frame: by optical flow, by features, by depth alone."""

@@ -1,4 +1,4 @@
-"""Motion from depth alone, for views without texture: KISS-ICP, a guess, and planes."""
+"""Odometry from depth alone, for views without texture: KISS-ICP, prediction and planes."""
 
 from __future__ import annotations
 
@@ -21,30 +21,52 @@ FloatArray = NDArray[np.float64]
 
 
 class DepthOdometrySettings(Settings):
-    """When and how depth alone carries the camera."""
+    """When and how the camera is tracked by depth alone."""
 
-    enabled: bool = Field(True, description="fall back on depth alone where features fail")
+    enabled: bool = Field(True, description="track the camera by depth alone where features fail")
     voxel_m: float = Field(0.10, gt=0, le=2, description="KISS-ICP's voxel size")
-    stride: int = Field(6, ge=1, le=64, description="every n-th pixel takes part")
+    stride: int = Field(6, ge=1, le=64, description="every n-th pixel is used")
     min_overlap: float = Field(
-        0.5, gt=0, le=1, description="share of points that must fall onto the surface before"
+        0.5, gt=0, le=1, description="minimum share of points that lie on the previous surface"
     )
     texture: int = Field(
-        100, ge=1, description="features with depth that make a view textured: yet none were known"
+        100, ge=1, description="number of features with depth that makes a view textured"
     )
     min_overlap_textured: float = Field(
-        0.7, gt=0, le=1, description="the overlap that such a view needs: it may be elsewhere"
+        0.7,
+        gt=0,
+        le=1,
+        description="minimum overlap for a textured view of which no feature is recognised",
     )
-    fit_m: float = Field(0.08, gt=0, le=1, description="a point this near falls onto the surface")
-    max_step_m: float = Field(0.5, gt=0, le=5, description="a longer step is not believed")
+    fit_m: float = Field(
+        0.08,
+        gt=0,
+        le=1,
+        description="maximum distance of a point from the surface it lies on, metres",
+    )
+    max_step_m: float = Field(
+        0.5,
+        gt=0,
+        le=5,
+        description="maximum motion between two frames; a longer one is rejected, metres",
+    )
     keyframe_m: float = Field(
-        0.3, gt=0, le=5, description="way from one keyframe to the next by depth alone, metres"
+        0.3,
+        gt=0,
+        le=5,
+        description="distance between keyframes when tracking by depth alone, metres",
     )
     sigma_rotation_rad: float = Field(
-        0.02, gt=0, le=1, description="error of a step where no plane holds it, radians"
+        0.02,
+        gt=0,
+        le=1,
+        description="rotation error of a step where no surface constrains it, radians",
     )
     sigma_translation_m: float = Field(
-        0.03, gt=0, le=1, description="error of a step where no plane holds it, metres"
+        0.03,
+        gt=0,
+        le=1,
+        description="translation error of a step where no surface constrains it, metres",
     )
 
 
@@ -84,11 +106,11 @@ class DepthOdometry:
 
     @property
     def is_tracking(self) -> bool:
-        """Whether depth carries the camera at present."""
+        """Whether the camera is tracked by depth at present."""
         return self._last is not None
 
     def forget(self) -> None:
-        """Stop: features carry the camera again."""
+        """Stop: the camera is tracked by features again."""
         self._kiss, self._last = None, None
 
     def remember(self, frame: Frame) -> None:
@@ -99,7 +121,7 @@ class DepthOdometry:
     def register(
         self, frame: Frame, T_camera_last: FloatArray, is_textured: bool = False
     ) -> Step | None:
-        """Return the step from the last frame to this one, which becomes the last; or None.
+        """Return the motion from the last frame to this one, which becomes the last; or None.
 
         Parameters
         ----------
@@ -135,7 +157,7 @@ class DepthOdometry:
         return step
 
     def _propose(self, cloud: FloatArray, T_camera_last: FloatArray) -> FloatArray:
-        """Return KISS-ICP's motion, started at the guess."""
+        """Return the motion of KISS-ICP, with the guess as initial estimate."""
         if self._kiss is None:
             self._kiss = self._start()
         start = np.array(self._kiss.last_pose)
@@ -162,7 +184,7 @@ class DepthOdometry:
     def _refine(
         self, cloud: FloatArray, planes: tuple[Plane, ...], T_camera_last: FloatArray
     ) -> Step:
-        """Refine a motion on common planes, then on all surface; what neither holds, stays."""
+        """Refine a motion on common planes, then on all surfaces; unconstrained directions stay."""
         assert self._last is not None
         sigma = [self.settings.sigma_rotation_rad, self.settings.sigma_translation_m]
         weak = np.diag(np.repeat(sigma, 3) ** -2.0)
@@ -194,7 +216,7 @@ class DepthOdometry:
         return Step(T_camera_last, A.T @ (held + information) @ A, least > 1.0)
 
     def _gaps(self, cloud: FloatArray, step: Step) -> FloatArray:
-        """Return how far behind or before the last depth image each point (N,) in its view lies.
+        """Return the depth difference (N,) of points to the last depth image.
 
         At most twice the fitting distance, metres. Unlike distances to the nearest point, these
         do not favour standing still: the pixels' pattern moves along with the camera.

@@ -1,4 +1,4 @@
-"""Views with little texture lean on the surfaces of their keyframe as well."""
+"""Depth refinement: poses of views with little texture, refined on keyframe surfaces."""
 
 from __future__ import annotations
 
@@ -17,15 +17,21 @@ from roomgraph.slam.geometry.noise import SensorNoise
 
 
 class DepthRefinementSettings(Settings):
-    """When a pose by features is improved on depth."""
+    """When a feature-based pose is refined by depth."""
 
-    enabled: bool = Field(True, description="improve poses from little texture on the surfaces")
-    inliers: int = Field(100, ge=0, description="poses on at least so many features stand alone")
-    columns: int = Field(80, ge=8, le=2000, description="columns of the depth that take part")
-    max_surface_m: float = Field(
-        0.05, gt=0, le=1, description="surface points further apart are not paired"
+    enabled: bool = Field(
+        True, description="refine poses from few features by aligning depth surfaces"
     )
-    iterations: int = Field(4, ge=1, le=100, description="at most")
+    inliers: int = Field(
+        100, ge=0, description="poses with at least this many feature inliers are not refined"
+    )
+    columns: int = Field(
+        80, ge=8, le=2000, description="number of columns of the depth image that are used"
+    )
+    max_surface_m: float = Field(
+        0.05, gt=0, le=1, description="maximum distance between paired surface points, metres"
+    )
+    iterations: int = Field(4, ge=1, le=100, description="maximum number of iterations")
 
 
 class DepthRefiner:
@@ -43,11 +49,11 @@ class DepthRefiner:
         self._surface: Surface | None = None
 
     def rest_on(self, keyframe: int, frame: Frame) -> None:
-        """Take a new keyframe's depth as what later views are aligned with."""
+        """Use a new keyframe's depth as the reference of later views."""
         self._keyframe, self._frame, self._surface = keyframe, frame, None
 
     def refine(self, frame: Frame, estimate: Estimate) -> Estimate:
-        """Return an estimate improved on the surfaces, or as it was."""
+        """Return an estimate refined on the surfaces, or unchanged."""
         s = self.settings
         if not s.enabled or estimate.inliers >= s.inliers or estimate.reference != self._keyframe:
             return estimate

@@ -1,4 +1,4 @@
-"""Where a view was found to be, by whatever means."""
+"""Pose estimates of views, from any tracking method."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Estimate:
 
 
 def inverted(information: FloatArray) -> FloatArray:
-    """Return the covariance (6, 6) that belongs to an information matrix.
+    """Return the covariance (6, 6) of an information matrix.
 
     Directions of which nothing is known make it singular: they get a standard deviation of a
     thousand metres or radians.

@@ -1,4 +1,4 @@
-"""Which views become keyframes."""
+"""Keyframe selection."""
 
 from __future__ import annotations
 
@@ -19,34 +19,51 @@ class KeyframeSettings(Settings):
     """When a view becomes a keyframe."""
 
     min_overlap: float = Field(
-        0.75, gt=0, le=1, description="of the reference's points, the least still in view"
+        0.75,
+        gt=0,
+        le=1,
+        description="a keyframe is added when a smaller share of the reference's points is in view",
     )
     min_explained: float = Field(
-        0.3, gt=0, le=1, description="of the view's features, the least found in the local map"
+        0.3,
+        gt=0,
+        le=1,
+        description="with a smaller share of features found in the local map, min_change applies",
     )
     min_followed: float = Field(
-        0.5, gt=0, le=1, description="of the corners of the template, the least still followed"
+        0.5,
+        gt=0,
+        le=1,
+        description="a keyframe is added when a smaller share of the template's corners is tracked",
     )
     min_change: float = Field(
         0.25, ge=0, le=1,
-        description="of what turn, way or overlap make a keyframe, the least where little is found",
+        description="share of the usual change that makes a keyframe where few features are found"
+        " in the local map",
     )  # fmt: skip
     max_baseline_share: float = Field(
-        0.15, gt=0, le=2, description="way from the reference, as a share of the depth, at most"
+        0.15,
+        gt=0,
+        le=2,
+        description="maximum distance from the reference keyframe, as a share of the median depth",
     )
-    max_angle_deg: float = Field(20.0, gt=0, le=180, description="turn from the reference, at most")
+    max_angle_deg: float = Field(
+        20.0, gt=0, le=180, description="maximum rotation from the reference keyframe, degrees"
+    )
     same_m: float = Field(
         0.05,
         gt=0,
         le=1,
-        description="an old keyframe serves where the way agrees this well, metres",
+        description="an old keyframe is reused if both poses agree within this distance, metres",
     )
-    same_deg: float = Field(2.0, gt=0, le=30, description="and this well in degrees")
-    neighbours: int = Field(3, ge=0, le=50, description="keyframes tracked beside the reference")
+    same_deg: float = Field(2.0, gt=0, le=30, description="and within this rotation, degrees")
+    neighbours: int = Field(
+        3, ge=0, le=50, description="number of keyframes tracked in addition to the reference"
+    )
 
 
 class KeyframeSelector:
-    """Compares views with the keyframe that they are tracked against, by what it shows.
+    """Compares views with their reference keyframe.
 
     Parameters
     ----------
@@ -66,7 +83,7 @@ class KeyframeSelector:
         self.outline: FloatArray = np.empty((0, 3))
 
     def wants(self, view: View, estimate: Estimate) -> bool:
-        """Whether a view shows new space, or is losing touch with its keyframe."""
+        """Whether a view shows new space, or overlaps too little with its keyframe."""
         if not view.has_depth:
             return False
         settings, T = self.settings, estimate.T_camera_reference
@@ -88,7 +105,7 @@ class KeyframeSelector:
         return change > (settings.min_change if poor else 1)
 
     def nearest(self, T_world_camera: FloatArray, T_world_others: FloatArray) -> int | None:
-        """Return which of other keyframes (N, 4, 4) sees most nearly the same, if any does."""
+        """Return the most similar view among keyframes (N, 4, 4), if one is near enough."""
         if not len(T_world_others) or not len(self.outline):
             return None
         T = se3.inverse(T_world_camera) @ T_world_others
@@ -101,7 +118,7 @@ class KeyframeSelector:
         return nearest if away[nearest] + turned[nearest] < 1 else None
 
     def serves(self, known: Estimate, T_camera_other: FloatArray) -> bool:
-        """Whether an older keyframe explains a view, at the pose `T_camera_other` tracked to it."""
+        """Whether an older keyframe can be reused for a view tracked at `T_camera_other`."""
         settings = self.settings
         off = se3.inverse(T_camera_other) @ known.T_camera_reference
         return bool(
@@ -112,7 +129,7 @@ class KeyframeSelector:
 
     @property
     def _depth(self) -> float:
-        """How far away the outline is, metres."""
+        """Median depth of the outline, metres."""
         return float(np.median(self.outline[:, 2]))
 
     def _overlap(self, T_camera_reference: FloatArray, intrinsics: Intrinsics) -> float:

@@ -58,11 +58,11 @@ class LocalMap:
 
 
 class Described(Protocol):
-    """What a local map is made of: a keyframe, done or in the making, or one of a former run."""
+    """A keyframe in a local map: done, in progress, or of an earlier run."""
 
     @property
     def id(self) -> int:
-        """What it is known by."""
+        """Id of the keyframe."""
 
     @property
     def features(self) -> Features:
@@ -70,7 +70,7 @@ class Described(Protocol):
 
     @property
     def points(self) -> FloatArray:
-        """Where they lie in its camera (N, 3), metres; NaN without depth."""
+        """Points of the features in its camera frame (N, 3), metres; NaN without depth."""
 
 
 def local_map(keyframes: Sequence[tuple[Described, FloatArray]]) -> LocalMap:
@@ -93,7 +93,7 @@ def local_map(keyframes: Sequence[tuple[Described, FloatArray]]) -> LocalMap:
 def covisible(
     reference: int, linked: Iterable[int], T_world: Mapping[int, FloatArray], count: int
 ) -> list[int]:
-    """Return a keyframe and, of those linked to it, the `count` that look most the same way."""
+    """Return a keyframe and its `count` most covisible neighbours."""
     T_reference_world = se3.inverse(T_world[reference])
     ranked = []
     for other in linked:

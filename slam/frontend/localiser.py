@@ -1,4 +1,4 @@
-"""Where the camera is now, by the cheapest means that will do."""
+"""Localisation of the camera by the cheapest method that works."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ FloatArray = NDArray[np.float64]
 
 
 class KnownMap(Protocol):
-    """What is known of the map now."""
+    """The present map, as the localiser needs it."""
 
     @property
     def poses(self) -> Mapping[int, FloatArray]:
         """T_world_keyframe (4, 4) by keyframe id."""
 
     def around(self, reference: int) -> LocalMap:
-        """Return the points around a keyframe."""
+        """Return the local map of a keyframe."""
 
     def thumbnail(self, keyframe: int) -> RangeImage:
-        """Return what a keyframe shows, in few cells."""
+        """Return the thumbnail of a keyframe."""
 
 
 class Localiser:
-    """Follows the camera from frame to frame: by optical flow, by features, by depth alone.
+    """Tracks the camera from frame to frame: by optical flow, by features, by depth alone.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class Localiser:
         self._covariance: FloatArray = np.zeros((6, 6))
 
     def locate(self, view: View) -> Estimate | None:
-        """Return where a view is, going on from the last one; None if no means finds it.
+        """Return the pose of a view, tracked from the last one; None if all methods fail.
 
         A view without any depth can be followed by its corners, but it is not worth more effort:
         nothing could be mapped from it.
@@ -93,7 +93,7 @@ class Localiser:
         return self._by_depth(view) if view.has_depth else None
 
     def moved_to(self, view: View, anchor: Anchor, estimate: Estimate | None) -> None:
-        """Take a view's pose over as the present one.
+        """Set the present pose to that of a view.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Localiser:
         self._last, self._last_view = anchor, view
 
     def follow(self, view: View, anchor: Anchor) -> Template:
-        """Look for this view's corners from now on."""
+        """Use this view as the template of optical flow."""
         self._template = self.flow.template(view, anchor)
         self._template_covariance = self._covariance
         return self._template
@@ -125,7 +125,7 @@ class Localiser:
         return self._pose_of(self._last)
 
     def stand_still(self) -> None:
-        """Predict no motion: what it was is not known any more."""
+        """Predict no motion, since the last motion is unknown."""
         self.motion.stand_still()
 
     def _pose_of(self, anchor: Anchor) -> FloatArray:
@@ -149,7 +149,7 @@ class Localiser:
         return se3.orthonormal(T)
 
     def _held(self, view: View, estimate: Estimate) -> Estimate:
-        """Take what a view leaves open from the motion so far."""
+        """Constrain a pose by the motion model where the view does not."""
         if not self._status.is_tracking:
             return estimate
         T = self.motion.hold(
@@ -159,13 +159,13 @@ class Localiser:
         return replace(estimate, T_camera_reference=T)
 
     def _by_flow(self, view: View) -> Estimate | None:
-        """Follow the template's corners."""
+        """Track the corners of the template."""
         if self._template is None:
             return None
         return self._followed(view, self._template, self._template_covariance)
 
     def _by_flow_from_last(self, view: View) -> Estimate | None:
-        """Follow the corners of the last view: in quick motion it is blurred alike."""
+        """Track the corners of the last view, which has similar blur in quick motion."""
         if self._last is None or self._last_view is None or not self._last_view.has_depth:
             return None
         if self._template is not None and self._template.grey is self._last_view.grey:
@@ -196,7 +196,7 @@ class Localiser:
         )
 
     def _by_features(self, view: View) -> Estimate | None:
-        """Match features with the points of the keyframes around."""
+        """Match features with the local map."""
         assert self._last is not None
         reference = self._last.keyframe
         located = self.tracker.track(
@@ -207,7 +207,7 @@ class Localiser:
         return estimate_of(located, view)
 
     def _looks_right(self, view: View, located: Located) -> bool:
-        """Whether the keyframe that most matches come from looks the same from that pose.
+        """Whether the keyframe with most matches looks the same from that pose.
 
         If not, they match a pattern that repeats: the camera has jumped, and is to be found anew.
         """
@@ -224,7 +224,7 @@ class Localiser:
         return common.looks_alike(self._min_correlation)
 
     def _by_depth(self, view: View) -> Estimate | None:
-        """Carry on from the last frame by aligning depth images."""
+        """Track from the last frame by aligning depth images."""
         if not self.depth.settings.enabled or self._last is None or self._last_view is None:
             return None
         if not self.depth.is_tracking:

@@ -1,4 +1,4 @@
-"""Where the camera should be next, and how much that is worth."""
+"""Motion model: predicted pose of the camera, and its uncertainty."""
 
 from __future__ import annotations
 
@@ -18,28 +18,32 @@ ALIKE = 0.1
 
 
 class PredictionSettings(Settings):
-    """How steadily a camera in a hand, or on a robot, moves."""
+    """Assumptions on the motion of a handheld or robot-mounted camera."""
 
-    enabled: bool = Field(True, description="let the motion so far hold what a view leaves open")
+    enabled: bool = Field(
+        True,
+        description="use a constant-velocity model in directions that a view does not constrain",
+    )
     acceleration_m_s2: float = Field(
-        5.0, gt=0, le=1000, description="usual acceleration of the camera"
+        5.0, gt=0, le=1000, description="typical acceleration of the camera, m/s²"
     )
     acceleration_rad_s2: float = Field(
-        30.0, gt=0, le=10000, description="usual angular acceleration of the camera"
+        30.0, gt=0, le=10000, description="typical angular acceleration of the camera, rad/s²"
     )
     memory: float = Field(
-        0.9, ge=0, lt=1, description="weight of the errors so far when a new one comes in"
+        0.9,
+        ge=0,
+        lt=1,
+        description="weight of the past prediction errors when a new one is averaged in",
     )
-    caution: float = Field(
-        3.0, ge=1, le=100, description="predictions are taken to err so many times as they did"
-    )
+    caution: float = Field(3.0, ge=1, le=100, description="factor on the past prediction errors")
     longest: float = Field(
-        5.0, ge=1, le=100, description="motion is carried on over at most so many of its own steps"
+        5.0, ge=1, le=100, description="maximum extrapolation, as a multiple of the last time step"
     )
 
 
 class MotionModel:
-    """Constant velocity, weighed by how well it has held so far.
+    """Constant velocity, weighted by its past prediction errors.
 
     What a view shows decides where it was taken; only directions that it leaves open (a few
     features in a corner, a bare wall) are held by the prediction. Its covariance is that of a
@@ -54,18 +58,18 @@ class MotionModel:
         self._squares: FloatArray | None = None
 
     def moved(self, T_now_last: FloatArray, seconds: float) -> None:
-        """Take in the latest step (4, 4) and how long it took.
+        """Update with the latest motion (4, 4) and its duration.
 
         It feeds the next one: left alone, rounding errors would double with each frame.
         """
         self._T_now_last, self._step_s = se3.orthonormal(T_now_last), seconds
 
     def stand_still(self) -> None:
-        """Predict no motion: what it was is not known any more."""
+        """Predict no motion, since the last motion is unknown."""
         self._T_now_last, self._step_s = np.eye(4), 0.0
 
     def step(self, seconds: float) -> FloatArray:
-        """Return T_next_now (4, 4) after so many seconds, if the camera goes on as it did."""
+        """Return the predicted T_next_now (4, 4) after `seconds` at constant velocity."""
         times = self._times(seconds)
         if abs(times - 1.0) < ALIKE:
             return self._T_now_last
@@ -75,7 +79,7 @@ class MotionModel:
     def hold(
         self, T: FloatArray, information: FloatArray, T_predicted: FloatArray, seconds: float
     ) -> FloatArray:
-        """Return a measured pose with what it leaves open taken from the prediction.
+        """Return a measured pose, with unconstrained directions taken from the prediction.
 
         The product of two Gaussians, the prediction weighed down by Cauchy's kernel where it
         contradicts the measurement.
@@ -102,7 +106,7 @@ class MotionModel:
         return se3.exponential(pull) @ T
 
     def _times(self, seconds: float) -> float:
-        """Return how many of the last steps a time is; one if the stamps say nothing."""
+        """Return a time as a multiple of the last step; 1 if time stamps are unusable."""
         if self._step_s <= 0 or seconds <= 0:
             return 1.0
         return min(seconds / self._step_s, self.settings.longest)
@@ -113,7 +117,7 @@ class MotionModel:
         return np.asarray(np.repeat(usual**2 + s.caution**2 * known, 3))
 
     def _learnt(self, off: FloatArray, information: FloatArray) -> FloatArray:
-        """Return the mean square errors (2,) of predictions, rotation and way, per axis.
+        """Return the mean square prediction errors (2,) of rotation and translation, per axis.
 
         An error that the measurement itself may have caused is no error of the prediction.
         """

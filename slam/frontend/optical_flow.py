@@ -1,4 +1,4 @@
-"""Following the corners of a template frame by optical flow: what tracks most frames."""
+"""Tracking by optical flow from a template frame, which tracks most frames."""
 
 from __future__ import annotations
 
@@ -21,27 +21,34 @@ FloatArray = NDArray[np.float64]
 
 
 class FlowSettings(Settings):
-    """How corners are chosen and followed."""
+    """How corners are chosen and tracked."""
 
-    enabled: bool = Field(True, description="follow corners by optical flow between keyframes")
-    corners: int = Field(400, ge=20, le=5000, description="corners followed, at most")
+    enabled: bool = Field(True, description="track corners by optical flow between keyframes")
+    corners: int = Field(400, ge=20, le=5000, description="maximum number of corners tracked")
     quality: float = Field(
-        0.005, gt=0, lt=1, description="weakest corner, as a share of the strongest"
+        0.005, gt=0, lt=1, description="minimum corner strength, as a share of the strongest"
     )
     spacing_share: float = Field(
-        0.015, gt=0, lt=1, description="distance between corners, of the image's width"
+        0.015,
+        gt=0,
+        lt=1,
+        description="minimum distance between corners, as a share of the image's width",
     )
-    window: int = Field(15, ge=5, le=101, description="side of the patch followed, pixels")
-    levels: int = Field(3, ge=0, le=6, description="halvings of the image in the pyramid")
-    min_inliers: int = Field(40, ge=6, description="fewer, and features are matched instead")
+    window: int = Field(15, ge=5, le=101, description="side of the patch that is tracked, pixels")
+    levels: int = Field(
+        3, ge=0, le=6, description="number of times the image is halved for the pyramid"
+    )
+    min_inliers: int = Field(
+        40, ge=6, description="with fewer inliers, features are matched instead"
+    )
     min_share: float = Field(
-        0.5, gt=0, le=1, description="of the corners in view, the least that must agree"
+        0.5, gt=0, le=1, description="minimum share of inliers among the corners in view"
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Template:
-    """A frame whose corners are looked for in later frames.
+    """A frame whose corners are tracked in later frames.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Where a view is, given the points around."""
+"""Pose of a view from matches with a local map."""
 
 from __future__ import annotations
 
@@ -20,21 +20,36 @@ FloatArray = NDArray[np.float64]
 
 
 class TrackerSettings(Settings):
-    """How views are matched to the points around."""
+    """How views are matched to a local map."""
 
-    ratio: float = Field(0.8, gt=0, lt=1, description="ratio test between nearest descriptors")
+    ratio: float = Field(
+        0.8,
+        gt=0,
+        lt=1,
+        description="maximum ratio of the nearest to the second nearest descriptor distance "
+        "(ratio test)",
+    )
     search_share: float = Field(
-        0.06, gt=0, le=1, description="search radius around predictions, of the image's width"
+        0.06,
+        gt=0,
+        le=1,
+        description="search radius around predicted positions, as a share of the image's width",
     )
     guided_inliers: int = Field(
-        40, ge=6, description="fewer from guided matching, and all features are matched anew"
+        40,
+        ge=6,
+        description="with fewer inliers from guided matching, all features are matched again",
     )
     guided_share: float = Field(
-        0.5, gt=0, le=1, description="of guided matches that must agree; if fewer, RANSAC decides"
+        0.5,
+        gt=0,
+        le=1,
+        description="minimum share of inliers among guided matches; below it, RANSAC estimates "
+        "the pose",
     )
-    min_inliers: int = Field(15, ge=6, description="fewer agreeing matches are no pose")
+    min_inliers: int = Field(15, ge=6, description="minimum number of inlier matches for a pose")
     min_share: float = Field(
-        0.15, ge=0, le=1, description="of matches that must agree with a pose at least"
+        0.15, ge=0, le=1, description="minimum share of inliers among the matches for a pose"
     )
 
 
@@ -61,11 +76,11 @@ class Located:
 
     @property
     def inliers(self) -> int:
-        """How many features agree."""
+        """Number of inliers."""
         return len(self.matches)
 
     def matches_by_owner(self) -> dict[int, int]:
-        """Return the number of agreeing matches by keyframe id."""
+        """Return the number of inlier matches by keyframe id."""
         ids, count = np.unique(self.local_map.owners[self.matches[:, 0]], return_counts=True)
         return dict(zip(ids.tolist(), count.tolist(), strict=True))
 
@@ -118,7 +133,7 @@ class Tracker:
     def guided(
         self, view: View, around: LocalMap, T_camera_reference: FloatArray, scale: float = 1.0
     ) -> Located | None:
-        """Return the view's pose from points looked for where a prediction puts them only.
+        """Return the view's pose from points searched only near their predicted positions.
 
         `scale` narrows the search radius.
         """
@@ -157,7 +172,7 @@ def _located(around: LocalMap, motion: RefinedMotion, pairs: Matches) -> Located
 
 
 def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspondences:
-    """Return points paired with what a view measures of them."""
+    """Return points paired with their measurements in a view."""
     columns = pairs[:, 1]
     return Correspondences(
         points[pairs[:, 0]], view.features.pixels[columns], view.points_camera[columns, 2]
@@ -165,6 +180,6 @@ def correspondences(points: FloatArray, view: View, pairs: Matches) -> Correspon
 
 
 def one_a_position(pairs: Matches, pixels: FloatArray) -> Matches:
-    """Keep one pair a feature position: SIFT describes a point once for each orientation."""
+    """Keep one pair per feature position, as SIFT describes a point once per orientation."""
     _, first = np.unique(np.rint(pixels[pairs[:, 1]]), axis=0, return_index=True)
     return pairs[np.sort(first)]

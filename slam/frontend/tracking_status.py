@@ -1,4 +1,4 @@
-"""Whether the camera is being tracked, and since when it is not."""
+"""The tracking status of the camera."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ logger = logging.getLogger(__name__)
 
 
 class TrackingPhase(StrEnum):
-    """What tracking knows of the camera after the latest frame."""
+    """Tracking phase after the latest frame."""
 
     INITIALISING = "initialising"
     """No frame has shown anything in depth yet: there is no map."""
@@ -24,7 +24,7 @@ class TrackingPhase(StrEnum):
 
 
 class TrackingStatus:
-    """The one account of whether the camera is tracked; changed by its transitions alone.
+    """The tracking status, changed only by its transitions.
 
     They are called when all that is to be done about a frame is done: until then the status is
     that of the frame before.
@@ -55,35 +55,35 @@ class TrackingStatus:
 
     @property
     def is_tracking(self) -> bool:
-        """Whether the latest frame has a pose: only then the motion since is known."""
+        """Whether the latest frame has a pose; only then is the last motion known."""
         return self.phase is TrackingPhase.TRACKING
 
     @property
     def is_lost(self) -> bool:
-        """Whether the camera has to be found again."""
+        """Whether relocalisation is needed."""
         return self.phase is TrackingPhase.LOST
 
     def began(self, frame: Frame) -> None:
-        """Go on from the frame that the map begins with."""
+        """Continue from the first frame of the map."""
         self._seen(frame)
 
     def began_submap(self, frame: Frame) -> None:
-        """Go on from a lost frame that a sub-map begins with."""
+        """Continue from a lost frame that begins a sub-map."""
         self._seen(frame)
 
     def found(self, frame: Frame, by_flow: bool) -> None:
-        """Go on from a frame with a pose in the map; `by_flow` if optical flow was enough."""
+        """Continue from a frame with a pose in the map; `by_flow` if by optical flow."""
         self.needs_features = not by_flow
         self.lost_in_a_row = 0
         self._seen(frame)
 
     def interrupted(self, frame: Frame) -> None:
-        """Take note of a frame that could not be followed and has no depth to find it by."""
+        """Record an untracked frame without depth for relocalisation."""
         self.needs_features = True
         self._enter(TrackingPhase.LOST if self.is_lost else TrackingPhase.INTERRUPTED, frame)
 
     def lost(self, frame: Frame) -> None:
-        """Take note of a frame that has depth, but was not found."""
+        """Record a frame with depth whose pose was not found."""
         self.needs_features = True
         self.lost_in_a_row += 1
         self._enter(TrackingPhase.LOST, frame)

@@ -1,4 +1,4 @@
-"""How far a depth camera can be trusted."""
+"""Measurement noise of a depth camera."""
 
 from __future__ import annotations
 
@@ -16,15 +16,21 @@ class SensorNoise(Settings):
     defaults are of the size that Nguyen et al. (2012) measured for the Kinect.
     """
 
-    pixel: float = Field(1.0, gt=0, le=10, description="position of a feature, pixels")
-    depth_floor_m: float = Field(0.003, gt=0, le=0.1, description="depth error close by, metres")
+    pixel: float = Field(1.0, gt=0, le=10, description="error of a feature's position, pixels")
+    depth_floor_m: float = Field(
+        0.003, gt=0, le=0.1, description="depth error at short range, metres"
+    )
     depth_quadratic: float = Field(
-        0.0025, ge=0, le=0.1, description="depth error added for each square metre of depth"
+        0.0025,
+        ge=0,
+        le=0.1,
+        description="depth error in metres added per square metre of depth (it grows with the "
+        "depth squared)",
     )
 
     @property
     def coefficients(self) -> NDArray[np.float64]:
-        """The two numbers (2,) that compiled loops have `depth_sigma` from."""
+        """The two coefficients (2,) of `depth_sigma`, for compiled loops."""
         return np.array([self.depth_floor_m, self.depth_quadratic])
 
     def depth_sigma(self, depth_m: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""What two views have in common at a motion between them, and whether it agrees."""
+"""Overlap of two views at a motion between them, and its agreement."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Overlap:
         return self.same / total if total >= FEWEST else 0.0
 
     def looks_alike(self, least: float) -> bool:
-        """Whether the same surface looks the same, as far as it looks like anything."""
+        """Whether the shared surface looks similar, if it has texture."""
         return self.correlation is None or self.correlation >= least
 
 

@@ -30,8 +30,8 @@ def keys_of(cells: NDArray[np.int32]) -> IntArray:
     """
     if len(cells) and np.abs(cells).max() >= REACH:
         raise SlamError(
-            "map reaches too far for its voxels", expected=f"less than {REACH} voxels from the "
-            "origin", got=str(int(np.abs(cells).max())), hint="take larger voxels",
+            "map is too large for its voxels", expected=f"less than {REACH} voxels from the "
+            "origin", got=str(int(np.abs(cells).max())), hint="use larger voxels",
         )  # fmt: skip
     x, y, z = (cells[:, axis].astype(np.int64) + REACH for axis in range(3))
     low, side = (1 << SIDE_BITS) - 1, SIDE_BITS

@@ -1,4 +1,4 @@
-"""Telling what has moved away: voxels that other keyframes see through."""
+"""Dynamic-point removal: voxels that other keyframes see through."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ AROUND = 20
 
 @dataclass(frozen=True, slots=True)
 class VisibilityCounts:
-    """How often keyframes looked at each of N voxels.
+    """Visibility counts of N voxels.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the finished map says of the building: its floor, free space and occupancy grid."""
+"""Floor analysis of the finished map: floor plane, free space and occupancy grid."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def analyse_floor(
     volume_settings: OccupancyVolumeSettings,
     noise: SensorNoise,
 ) -> FloorAnalysis | None:
-    """Look at a map as it is now; None if there is nothing in it.
+    """Analyse the present map; None if it is empty.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Which way is up, where the floor is, and along what the walls run."""
+"""The up direction, the floor height, and the direction of the walls."""
 
 from __future__ import annotations
 
@@ -27,19 +27,30 @@ class FloorPlaneSettings(Settings):
     """How the vertical and the floor are found."""
 
     max_tilt_deg: float = Field(
-        50.0, gt=0, le=90, description="of the camera from upright, averaged over the run, at most"
+        50.0,
+        gt=0,
+        le=90,
+        description="maximum tilt of the camera from upright, averaged over the run, degrees",
     )
     tolerance_deg: float = Field(
-        5.0, gt=0, le=20, description="planes this near to level are level, to plumb are walls"
+        5.0,
+        gt=0,
+        le=20,
+        description="maximum tilt of a plane that counts as horizontal or vertical, degrees",
     )
     min_drop_m: float = Field(
-        0.3, ge=0, description="floor below the camera's usual height, at least"
+        0.3,
+        ge=0,
+        description="minimum distance of the floor below the camera's usual height, metres",
     )
     layer_m: float = Field(
-        0.1, gt=0, le=0.5, description="level planes within this height are one surface"
+        0.1,
+        gt=0,
+        le=0.5,
+        description="horizontal planes within this height form one surface, metres",
     )
     max_below: float = Field(
-        0.03, ge=0, le=0.5, description="share of what is seen that may lie below the floor"
+        0.03, ge=0, le=0.5, description="maximum share of the observed points below the floor"
     )
 
 
@@ -66,12 +77,15 @@ class FloorPlane:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What had to be guessed, in words."""
+        """Warnings about assumptions that replace missing observations."""
         found = []
         if not self.has_level:
-            found.append("no level surface or wall seen: up is the camera's own, on average")
+            found.append(
+                "no horizontal surface or wall was observed: the up direction is the mean of the "
+                "camera's"
+            )
         if not self.has_floor:
-            found.append("no floor seen: heights count from the lowest surface")
+            found.append("no floor was observed: heights are measured from the lowest surface")
         return tuple(found)
 
 

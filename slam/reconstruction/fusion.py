@@ -1,4 +1,4 @@
-"""Fusing keyframes into voxels, one by one, in any order, and taking them out again."""
+"""Fusion of keyframes into voxels, in any order, and their removal."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ GUESSED_NORMAL = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Fused:
-    """What a keyframe gave to the voxels.
+    """The contribution of a keyframe to the voxels.
 
     Attributes
     ----------
@@ -113,14 +113,14 @@ class Fusion:
         self.fused[keyframe] = Fused(image, T_world_keyframe.copy(), rows, depth_mm, typical_m)
 
     def remove(self, keyframe: int) -> None:
-        """Take a keyframe out again."""
+        """Remove a keyframe."""
         fused = self.fused.pop(keyframe)
         _, sums, _ = self._means(fused.image, fused.T_world_keyframe)
         self._sums[fused.rows] -= sums
         self._views[fused.rows] -= 1
 
     def voxels(self) -> Voxels:
-        """Return what the voxels hold; the same however they came to hold it."""
+        """Return the content of the voxels, independent of the order of fusion."""
         count = len(self._table)
         rows = np.flatnonzero(self._views[:count])
         keys = self._table.keys[rows]

@@ -149,8 +149,8 @@ def _surface(grid: Any) -> Mesh:
                 mesh.vertex.normals.numpy().copy(),
             )
     raise SlamError(
-        "mesh is empty", expected="depth or points of a surface, at least a few voxels wide",
-        hint="take smaller voxels",
+        "mesh is empty", expected="points of a surface at least a few voxels wide",
+        hint="use smaller voxels",
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""The 2-D occupancy grid: where a robot can go, where it cannot, and what nobody has seen."""
+"""The 2-D occupancy grid: free, occupied and unknown cells."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def occupancy(
 
 
 def _walked(volume: OccupancyVolume, path_map: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return the cells (R, C) that the camera's bearer took up on the way from point to point."""
+    """Return the cells (R, C) that the person with the camera walked through."""
     walked = np.zeros(volume.hits.shape[1:], dtype=bool)
     if not len(path_map):
         return walked

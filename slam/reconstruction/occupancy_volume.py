@@ -1,4 +1,4 @@
-"""What is free and what is filled, carved out of the keyframes' depth rays."""
+"""The occupancy volume: free and occupied cells from the depth rays of keyframes."""
 
 from __future__ import annotations
 
@@ -20,17 +20,27 @@ FloatArray = NDArray[np.float64]
 
 
 class OccupancyVolumeSettings(Settings):
-    """How finely space is carved, and what is in a robot's way."""
+    """Resolution of the occupancy volume, and height of obstacles."""
 
-    cell_m: float = Field(0.05, ge=0.01, le=1, description="side of a cell")
+    cell_m: float = Field(0.05, ge=0.01, le=1, description="side of a cell, metres")
     max_cells: int = Field(
-        4_000_000, ge=10_000, description="cells of the grid; a larger map gets larger cells"
+        4_000_000,
+        ge=10_000,
+        description="maximum number of cells of the grid; larger maps get larger cells",
     )
-    min_height_m: float = Field(0.1, ge=0, le=1, description="lower things are floor")
-    max_height_m: float = Field(1.8, gt=0, le=4, description="higher things are in nobody's way")
-    layer_m: float = Field(0.25, ge=0.05, le=1, description="height of a layer of cells, about")
-    ceiling_m: float = Field(3.0, gt=0, le=10, description="higher up nothing is looked at")
-    ray_every: int = Field(8, ge=1, le=256, description="of a keyframe's rays, one in so many")
+    min_height_m: float = Field(
+        0.1, ge=0, le=1, description="lower things belong to the floor, metres"
+    )
+    max_height_m: float = Field(
+        1.8, gt=0, le=4, description="higher things are no obstacles, metres"
+    )
+    layer_m: float = Field(
+        0.25, ge=0.05, le=1, description="approximate height of a layer of cells, metres"
+    )
+    ceiling_m: float = Field(
+        3.0, gt=0, le=10, description="height above which nothing is examined, metres"
+    )
+    ray_every: int = Field(8, ge=1, le=256, description="every n-th ray of a keyframe is used")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The coloured map: what keyframes saw, fused in voxels at their present poses."""
+"""The coloured point map: keyframes fused in voxels at their present poses."""
 
 from __future__ import annotations
 
@@ -25,22 +25,28 @@ FloatArray = NDArray[np.float64]
 class MapSettings(Settings):
     """How dense the map is."""
 
-    voxel_m: float = Field(0.02, gt=0, le=1, description="one point a cube of this size")
+    voxel_m: float = Field(
+        0.02, gt=0, le=1, description="side of a voxel, which holds one point, metres"
+    )
     stride: int = Field(4, ge=1, le=64, description="every n-th pixel of a keyframe is mapped")
-    max_depth_m: float = Field(4.0, gt=0, le=65, description="readings beyond are not mapped")
+    max_depth_m: float = Field(
+        4.0, gt=0, le=65, description="readings beyond are not mapped, metres"
+    )
     remove_dynamic: bool = Field(
-        True, description="drop points that keyframes see through: moving things"
+        True, description="remove dynamic points: those that later keyframes see through"
     )
     sketch_voxels: float = Field(
-        2.5, ge=1, le=50, description="size of a voxel of the map on the way, in those of the map"
+        2.5, ge=1, le=50, description="voxel size of the online map, as a multiple of voxel_m"
     )
     sketch_every: int = Field(
-        2, ge=1, le=16, description="every n-th keyframe is sketched: those next to it see the same"
+        2, ge=1, le=16, description="every n-th keyframe is used for the online map"
     )
-    sketch_step: int = Field(2, ge=1, le=16, description="every n-th mapped pixel is sketched")
+    sketch_step: int = Field(
+        2, ge=1, le=16, description="every n-th mapped pixel is used for the online map"
+    )
     sketch_slack: float = Field(
-        0.5, ge=0, le=10, description="a keyframe may move by so many sketch voxels before it is "
-        "fused again"
+        0.5, ge=0, le=10,
+        description="a keyframe that moves by this many voxels of the online map is fused again",
     )  # fmt: skip
 
 
@@ -100,7 +106,7 @@ def build_map(
     settings: MapSettings,
     noise: SensorNoise,
 ) -> PointMap:
-    """Fuse keyframes at their present poses, and drop what others of them see through.
+    """Fuse keyframes at their present poses, and remove points that others see through.
 
     Nothing is kept between calls, so after a loop closure the map is simply built again; memory
     follows the space seen (see `fusion`), not the number of keyframes.
@@ -127,7 +133,7 @@ def _fused(
 
 
 class LiveMap:
-    """A map that follows the keyframes: what is new is fused, what has moved is fused again.
+    """A map that follows the keyframes: fuses new ones, and fuses moved ones again.
 
     It costs as much as has changed, not as much as there is. Things that have moved away stay in
     it; `build_map` is for keeps.

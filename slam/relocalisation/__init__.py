@@ -1,1 +1,1 @@
-"""Keyframes found again: by words, in memory and from disk."""
+"""Relocalisation: by visual words, during a run and from disk."""

@@ -1,4 +1,4 @@
-"""How descriptors are kept on disk: as small as they can be without harm."""
+"""Compact storage of descriptors on disk."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_ROUNDING = 1e-3
 
 
 def stored(descriptors: NDArray[Any]) -> tuple[Storage, NDArray[Any]]:
-    """Return how descriptors (N, D) are stored, and what is stored of them (N, D).
+    """Return the storage format of descriptors (N, D), and the stored values (N, D).
 
     - ``binary``: binary descriptors (uint8) as they are.
     - ``bytes``: SIFT's, which are whole numbers up to 255, and RootSIFT's, rounded to such.

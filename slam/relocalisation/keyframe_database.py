@@ -1,4 +1,4 @@
-"""Keyframes as they are kept on disk, to be recognised long after the run."""
+"""The keyframe database on disk, for relocalisation after the run."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MAX_FEATURES = 500
 
 @dataclass(frozen=True, slots=True)
 class StoredKeyframe:
-    """What is needed to recognise a keyframe and to measure a pose against it.
+    """A keyframe as stored for recognition and pose estimation.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class KeyframeDatabase:
 def database_of(
     keyframes: Iterable[Keyframe], T_world_keyframe: Mapping[int, FloatArray]
 ) -> KeyframeDatabase | None:
-    """Return what is kept of keyframes with their poses (4, 4) by id; None if there are none."""
+    """Return the database of keyframes with poses (4, 4) by id; None if there are none."""
     every = list(keyframes)
     kept = []
     for keyframe in every:
@@ -130,12 +130,12 @@ def read_keyframe_database(path: Path) -> KeyframeDatabase:
         return KeyframeDatabase(tuple(_keyframes(values)), intrinsics)
     except FileNotFoundError as error:
         raise SlamError(
-            "no keyframes to recognise places by", where=path, expected="a finished run",
+            "keyframe database not found", where=path, expected="a finished run",
             got="no such file", hint="map the sequence again with `roomgraph run`",
         ) from error  # fmt: skip
     except (OSError, ValueError, KeyError, IndexError, zipfile.BadZipFile, EOFError) as error:
         raise SlamError(
-            "keyframes not understood", where=path, expected=SCHEMA,
+            "keyframe database cannot be read", where=path, expected=SCHEMA,
             got=f"{type(error).__name__} {error}",
             hint="map the sequence again with `roomgraph run`",
         ) from error  # fmt: skip

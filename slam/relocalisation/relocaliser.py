@@ -1,4 +1,4 @@
-"""Where an image was taken, given the keyframes of a run and nothing of what went before."""
+"""Relocalisation of an image in the keyframes of a run."""
 
 from __future__ import annotations
 
@@ -24,19 +24,23 @@ FloatArray = NDArray[np.float64]
 
 
 class RelocaliserSettings(Settings):
-    """How keyframes are proposed and believed."""
+    """Selection and acceptance of keyframes."""
 
-    candidates: int = Field(6, ge=1, le=100, description="keyframes tried, the most alike first")
-    neighbours: int = Field(3, ge=0, le=50, description="keyframes joined to a candidate")
-    min_inliers: int = Field(30, ge=6, description="fewer agreeing matches are no pose")
+    candidates: int = Field(
+        6, ge=1, le=100, description="maximum number of keyframes tried, the most similar first"
+    )
+    neighbours: int = Field(
+        3, ge=0, le=50, description="number of neighbouring keyframes added to a candidate"
+    )
+    min_inliers: int = Field(30, ge=6, description="minimum number of inlier matches for a pose")
     enough_inliers: int = Field(
-        120, ge=6, description="with so many agreeing matches no other candidate is tried"
+        120, ge=6, description="number of inlier matches after which no other candidate is tried"
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Resemblance:
-    """How alike a keyframe looks (tf-idf), and how many matches agree on a pose against it.
+    """Similarity of a keyframe (tf-idf), and the number of inliers of a pose from it.
 
     `T_world_camera` is that pose (4, 4), or None where no pose was tried or found.
     """
@@ -49,7 +53,7 @@ class Resemblance:
 
 @dataclass(frozen=True, slots=True)
 class Relocation:
-    """What was found of an image: the keyframes it may have been taken near, the best first.
+    """The result for an image: candidate keyframes, the best first.
 
     If any has a pose, those with more agreeing matches come first; else the more alike.
     """
@@ -58,7 +62,7 @@ class Relocation:
 
     @property
     def best(self) -> Resemblance | None:
-        """The best of them, if there is any."""
+        """The best candidate, if there is one."""
         return self.resemblances[0] if self.resemblances else None
 
     @property
@@ -68,7 +72,7 @@ class Relocation:
 
 
 class Relocaliser:
-    """Recognises keyframes by their words, and measures the pose by features.
+    """Recognises keyframes by visual words, and estimates the pose from features.
 
     The words are made anew from the remembered descriptors, in the order of the keyframes: the
     same database gives the same answers. Depth helps where the image has it: without, the pose
@@ -113,7 +117,7 @@ class Relocaliser:
         return Relocation(tuple(found))
 
     def _around(self, keyframe: StoredKeyframe) -> list[StoredKeyframe]:
-        """Return a keyframe and those nearest to it that look the same way."""
+        """Return a keyframe and its nearest neighbours with a similar view direction."""
         T_world = {k.id: k.T_world_keyframe for k in self.database.keyframes}
         others = T_world.keys() - {keyframe.id}
         chosen = covisible(keyframe.id, others, T_world, self.settings.neighbours)

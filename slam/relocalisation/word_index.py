@@ -1,4 +1,4 @@
-"""Which keyframes look like this one: an inverted index over words found on the way."""
+"""Bag-of-words index: an inverted index over visual words learned online."""
 
 from __future__ import annotations
 
@@ -15,17 +15,21 @@ from roomgraph.slam.features.matching import squared_distances
 
 
 class WordIndexSettings(Settings):
-    """How words are made of descriptors."""
+    """How visual words are built from descriptors."""
 
-    max_words: int = Field(4096, ge=16, description="words at most")
+    max_words: int = Field(4096, ge=16, description="maximum number of visual words")
     radius: float = Field(
-        0.55, gt=0, le=2, description="a descriptor this far from all words, in norms, is a new one"
+        0.55,
+        gt=0,
+        le=2,
+        description="a descriptor further than this from all words becomes a new word, as a share"
+        " of its norm",
     )
-    features: int = Field(300, ge=20, description="features of a keyframe that are indexed")
+    features: int = Field(300, ge=20, description="number of features indexed per keyframe")
 
 
 class WordIndex:
-    """Ranks past keyframes by shared words, rare words counting more (tf-idf).
+    """Ranks past keyframes by shared visual words, weighted by tf-idf.
 
     The vocabulary needs no training: a descriptor far from every word becomes a word itself
     (leader clustering), until there are enough. After Sivic & Zisserman (2003), and Angeli et
@@ -78,7 +82,7 @@ class WordIndex:
         return descriptors[leaders]
 
     def add(self, keyframe: int, words: NDArray[np.intp]) -> None:
-        """Remember a keyframe by its words."""
+        """Index a keyframe by its words."""
         found, count = np.unique(words, return_counts=True)
         length = float(np.sqrt((count**2).sum())) or 1.0
         for word, n in zip(found.tolist(), count.tolist(), strict=True):
@@ -88,7 +92,7 @@ class WordIndex:
         self._keyframes += 1
 
     def rank(self, words: NDArray[np.intp], before: int) -> list[tuple[int, float]]:
-        """Return the keyframes with ids below `before` and their scores, the most alike first."""
+        """Return the keyframes with ids below `before` and their scores, the most similar first."""
         found, count = np.unique(words, return_counts=True)
         length = float(np.sqrt((count**2).sum())) or 1.0
         keyframes, scores = [np.empty(0, dtype=np.int64)], [np.empty(0)]

@@ -96,7 +96,7 @@ def test_settings_of_an_old_run_are_found_by_their_old_names(old_run):
 
 
 def test_an_old_settings_file_is_answered_by_the_new_name(old_run):
-    with pytest.raises(AppError, match=r"slam\.loops\.verification, as it is called now"):
+    with pytest.raises(AppError, match=r"slam\.loops\.verification \(its new name\)"):
         load_settings(old_run.config)
 
 

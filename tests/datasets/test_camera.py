@@ -75,7 +75,7 @@ def test_a_depth_camera_of_its_own(tmp_path):
         ([[1, 0, 0, 25.0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "metres"),
         ([[0, 1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "rotation"),
         ([1, 2], "4 x 4"),
-        ("near", "not understood"),
+        ("near", "invalid camera file"),
     ],
 )
 def test_a_motion_between_cameras_that_cannot_be(tmp_path, T, said):

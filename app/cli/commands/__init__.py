@@ -1,1 +1,1 @@
-"""The subcommands, a file each; what they need is imported when they run."""
+"""The subcommands, a file each; their imports are delayed until they run."""

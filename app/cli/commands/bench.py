@@ -1,4 +1,4 @@
-"""``roomgraph bench``: what mapping a sequence takes, and how good it is."""
+"""``roomgraph bench``: measure time, memory and accuracy of mapping."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def bench(
         list[Path], typer.Argument(metavar="SEQUENCE", help="Folders of RGB-D sequences.")
     ],
     repeat: Annotated[
-        int, typer.Option("--repeat", metavar="N", min=1, help="Times each is run; medians count.")
+        int, typer.Option("--repeat", metavar="N", min=1, help="Number of runs of each sequence.")
     ] = 3,
     laps: Annotated[
         int,
@@ -28,7 +28,7 @@ def bench(
             "--laps",
             metavar="N",
             min=0,
-            help="Play it forward and backward N times.",
+            help="Play each sequence forward and backward N times.",
             show_default="once, forward",
         ),
     ] = 0,
@@ -39,13 +39,13 @@ def bench(
             "-o",
             "--output",
             metavar="DIR",
-            help="Write bench.json, with the time of each frame, and a picture a sequence.",
+            help="Write bench.json, with the time of each frame, and a plot of each sequence.",
         ),
     ] = None,
     model: Annotated[
         Path | None,
         typer.Option(
-            "--model", metavar="DIR", help="Place model; each is run without and with it."
+            "--model", metavar="DIR", help="Place model; runs each sequence without and with it."
         ),
     ] = None,
     *,
@@ -54,11 +54,11 @@ def bench(
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Measure what mapping sequences takes.
+    """Measure time, memory and accuracy of mapping.
 
-    Time by stage, memory, accuracy. Each run has a process of its own and neither viewer nor
-    recording. Told are medians over the repeats, whether a frame costs more at the end of the run
-    than at its beginning, and whether all repeats gave the same trajectory to the byte.
+    Each run is a separate process, without viewer and recording. Reports medians over the repeats,
+    whether frames take longer at the end of a run than at its beginning, and whether all repeats
+    give exactly the same trajectory.
 
     Examples:
 
@@ -89,7 +89,7 @@ def bench(
 
 
 def _measure(jobs: list[BenchJob], repeat: int, output: Path | None, terminal: Terminal) -> str:
-    """Run the jobs, show and write what they took, and return it as JSON."""
+    """Run the jobs; show and write the results, and return them as JSON."""
     from json import dumps
 
     from roomgraph.app.bench.bench import frame_times, labelling_cost, report, run_all, summarise

@@ -6,7 +6,7 @@ from roomgraph.app.cli import options
 
 
 def config(config: options.ConfigOption = None) -> None:
-    """Print all settings as TOML, each with its meaning.
+    """Print all settings with their meaning, as TOML.
 
     Examples:
 

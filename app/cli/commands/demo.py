@@ -1,4 +1,4 @@
-"""``roomgraph demo``: the whole job on rendered buildings."""
+"""``roomgraph demo``: train, map and label on rendered buildings."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ def demo(
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
 ) -> None:
-    """Do the whole job on rendered buildings; needs no data.
+    """Train, map and label on rendered buildings; needs no data.
 
-    Renders two office floors (kept in a cache), learns the places of one by day and by night,
-    then maps and labels the other, which it has never seen.
+    Renders two office floors (stored in a cache), trains a place model on one of them by day and
+    by night, then maps the other one and labels its rooms.
 
     Examples:
 
@@ -39,5 +39,7 @@ def demo(
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")
-    terminal.say(f"Look at it with: roomgraph view {folder.root}")
-    terminal.say(f"Label your own with its places: roomgraph run SEQUENCE --model {folder.model}")
+    terminal.say(f"View it with: roomgraph view {folder.root}")
+    terminal.say(
+        f"Label your own sequence with its model: roomgraph run SEQUENCE --model {folder.model}"
+    )

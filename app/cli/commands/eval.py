@@ -20,15 +20,20 @@ if TYPE_CHECKING:
 def evaluate(
     recipe: options.RecipeFlags,
     run: Annotated[
-        Path | None, typer.Argument(metavar="RUN", help="Folder of a run; none with --protocol.")
+        Path | None,
+        typer.Argument(metavar="RUN", help="Folder of a run; leave out with --protocol."),
     ] = None,
     groundtruth: Annotated[
         Path | None,
-        typer.Option("--groundtruth", metavar="TUM", help="True poses; else the sequence's own."),
+        typer.Option(
+            "--groundtruth", metavar="TUM", help="Ground-truth poses. Default: the sequence's own."
+        ),
     ] = None,
     places: Annotated[
         Path | None,
-        typer.Option("--places", metavar="CSV", help="True labels; else the sequence's own."),
+        typer.Option(
+            "--places", metavar="CSV", help="Ground-truth labels. Default: the sequence's own."
+        ),
     ] = None,
     output: Annotated[
         Path | None,
@@ -36,7 +41,7 @@ def evaluate(
             "-o",
             "--output",
             metavar="PATH",
-            help="Draw a run's errors (PNG); the folder of an experiment's tables and picture.",
+            help="For a run: plot of the errors (PNG). For an experiment: output folder.",
         ),
     ] = None,
     protocol: Annotated[
@@ -44,7 +49,7 @@ def evaluate(
         typer.Option(
             "--protocol",
             metavar="NAME",
-            help="An experiment of the paper: recognition, light, building, route or vocabulary.",
+            help="Experiment of the paper: recognition, light, building, route or vocabulary.",
         ),
     ] = None,
     data: Annotated[
@@ -52,7 +57,7 @@ def evaluate(
         typer.Option(
             "--data",
             metavar="DIR",
-            help="What to experiment on, once for each folder; else rendered buildings.",
+            help="Data of the experiment; can be repeated. Default: rendered buildings.",
         ),
     ] = None,
     config: options.ConfigOption = None,
@@ -60,11 +65,11 @@ def evaluate(
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Compare a run with the truth; run experiments.
+    """Compare a run with the ground truth; run experiments.
 
-    Of a run: its trajectory (ATE, RPE) and labels. An experiment runs on rendered buildings (kept
-    in a cache) or on --data: folders class/image, train and test folders of those, or sequences
-    with places.csv. It writes NAME.json, NAME.md and NAME.png.
+    Evaluates the trajectory (ATE, RPE) and the labels of a run. An experiment uses rendered
+    buildings (stored in a cache) or --data: folders class/image, train and test folders of those,
+    or sequences with places.csv. It writes NAME.json, NAME.md and NAME.png.
 
     Examples:
 
@@ -98,19 +103,19 @@ def evaluate(
     terminal.say(against_truth(found.metrics))
     if output is not None:
         draw(output, found)
-        terminal.say(f"Drawn to {output}")
+        terminal.say(f"Plot written to {output}")
 
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """Where an experiment's tables and picture go."""
+    """Where the tables and the plot of an experiment are written."""
 
     directory: Path
     protocol: str
     overwrite: bool
 
     def check(self) -> None:
-        """Raise where they may not be written."""
+        """Raise if they exist and may not be overwritten."""
         from roomgraph.app.storage.run_folder import refuse_existing
 
         table = self.directory / f"{self.protocol}.json"

@@ -1,4 +1,4 @@
-"""``roomgraph export``: one product of a run in another format."""
+"""``roomgraph export``: convert an output of a run to another format."""
 
 from __future__ import annotations
 
@@ -23,21 +23,24 @@ def _list(wanted: bool) -> None:
 
 def export(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
-    format: Annotated[str, typer.Argument(metavar="FORMAT", help="As --list names it.")],
+    format: Annotated[str, typer.Argument(metavar="FORMAT", help="A format from --list.")],
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="Where to write; else into the run."),
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="Output file. Default: in the run's folder."
+        ),
     ] = None,
     list_formats: Annotated[
         bool,
-        typer.Option("--list", callback=_list, is_eager=True, help="Say what each format is."),
+        typer.Option("--list", callback=_list, is_eager=True, help="Print all formats and exit."),
     ] = False,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Write one product of a run in another format.
+    """Convert an output of a run to another format.
 
-    Its trajectory, pose graph, cloud, mesh, graph or occupancy grid; --list says in which formats.
+    Exports the trajectory, pose graph, point cloud, mesh, graph or occupancy grid; --list prints
+    the formats of each.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""``roomgraph label``: say what places images show."""
+"""``roomgraph label``: label images with the places they show."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ if TYPE_CHECKING:
 
 
 def label(
-    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Folder from `roomgraph train`.")],
+    model: Annotated[Path, typer.Argument(metavar="MODEL", help="Folder of a place model.")],
     data: Annotated[
-        Path, typer.Argument(metavar="DATA", help="Image, folder of images, or sequence.")
+        Path,
+        typer.Argument(
+            metavar="DATA", help="Image, folder of images, or sequence. With --set: a run."
+        ),
     ],
     output: Annotated[
         Path | None,
@@ -24,7 +27,7 @@ def label(
             "-o",
             "--output",
             metavar="PATH",
-            help="Table item,label,score,truth (CSV); with --set, the folder of the new model.",
+            help="CSV table item,label,score,truth. With --set: folder of the new model.",
         ),
     ] = None,
     changes: Annotated[
@@ -32,7 +35,7 @@ def label(
         typer.Option(
             "--set",
             metavar="PLACE=LABEL",
-            help="DATA is a run: say what a place is; -o writes the model that learned it.",
+            help="Correct the label of a place of a run; can be repeated.",
         ),
     ] = None,
     dataset: options.DatasetOption = None,
@@ -44,13 +47,14 @@ def label(
 ) -> None:
     """Label images or a sequence; correct a run.
 
-    Tells the accuracy where the truth is known.
+    Prints the accuracy where the ground truth is known.
 
-    Images are labelled one by one; the frames of a sequence together with their neighbours, by a
-    hidden Markov model (or the paper's majority vote: semantics.labeller.method in --config).
+    Images are labelled separately. Frames of a sequence are labelled together with their
+    neighbours, by a hidden Markov model (or by the paper's majority vote, with
+    semantics.labeller.method in --config).
 
-    With --set, DATA is the folder of a run: its graph is corrected, the places' neighbours are
-    inferred again, and with -o the model learns what the places look like, be they new to it.
+    With --set, DATA is the folder of a run: its graph is corrected, and the labels of neighbouring
+    places are inferred again. With -o, a new model also learns the corrected places.
 
     Examples:
 

@@ -1,4 +1,4 @@
-"""``roomgraph locate``: where in a map an image was taken."""
+"""``roomgraph locate``: find where in a map an image was taken."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from roomgraph.app.cli import options
 def locate(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     image: Annotated[
-        Path, typer.Argument(metavar="IMAGE", help="An image, a folder of them, or a sequence.")
+        Path, typer.Argument(metavar="IMAGE", help="Image, folder of images, or sequence.")
     ],
     depth: Annotated[
-        Path | None, typer.Argument(metavar="DEPTH", help="Depth of the image, if known.")
+        Path | None, typer.Argument(metavar="DEPTH", help="Depth image, if there is one.")
     ] = None,
     speak: Annotated[
-        bool, typer.Option("--speak", help="Say it aloud too, with espeak-ng where it is there.")
+        bool, typer.Option("--speak", help="Also speak the answers, with espeak-ng if installed.")
     ] = False,
     as_json: options.JsonOption = False,
     *,
     opening: options.InputFlags,
 ) -> None:
-    """Say where in a map an image was taken.
+    """Find where in a map an image was taken.
 
-    In which place, how sure that is, and the pose. The pose is measured against the map's features;
-    the depth of the image makes it surer but need not be known. Of a sequence only what changes is
-    said: "you are entering office 2" once the answer has held for 5 frames, "you are in office 2"
-    every 10 seconds.
+    Prints the place, the confidence and the pose. The pose is estimated from the map's features;
+    a depth image makes it more reliable but is optional. For a sequence, only changes are printed:
+    "you are entering office 2" after 5 frames with the same answer, and "you are in office 2" every
+    10 seconds.
 
     \b
     Examples:

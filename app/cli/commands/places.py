@@ -1,4 +1,4 @@
-"""``roomgraph places``: what is in a map."""
+"""``roomgraph places``: list the places of a map."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ def places(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     as_json: options.JsonOption = False,
 ) -> None:
-    """Say what is in a map.
+    """List the places of a map.
 
-    Its places: how sure their labels are, how large they are, when they were visited.
+    Prints the label of each place, its probability, area and visits.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""``roomgraph report``: make a run's report and floor plan again."""
+"""``roomgraph report``: write the report and floor plan of a run again."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ def report(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     quiet: options.QuietOption = False,
 ) -> None:
-    """Make a run's report and floor plan again.
+    """Write the report and floor plan of a run again.
 
-    From the files in its folder: report.html, floorplan.svg and floorplan.png.
+    Reads the files in its folder; writes report.html, floorplan.svg and floorplan.png.
 
     Examples:
 

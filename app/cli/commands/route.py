@@ -1,4 +1,4 @@
-"""``roomgraph route``: the way from one place of a map to another."""
+"""``roomgraph route``: find the route from one place of a map to another."""
 
 from __future__ import annotations
 
@@ -12,17 +12,20 @@ from roomgraph.app.cli import options
 
 def route(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
-    start: Annotated[str, typer.Argument(metavar="FROM", help="Where from.")],
-    goal: Annotated[str, typer.Argument(metavar="TO", help="Where to.")],
+    start: Annotated[
+        str, typer.Argument(metavar="FROM", help="Start: place, label or coordinates.")
+    ],
+    goal: Annotated[str, typer.Argument(metavar="TO", help="Goal: place, label or coordinates.")],
     as_json: options.JsonOption = False,
 ) -> None:
-    """Say the way from one place to another.
+    """Find the route from one place to another.
 
-    The shortest one that is known: along the way walked, and across rooms over their free floor.
-    Rooms, doors, metres.
+    Prints the shortest known route, with rooms, doors and metres. It follows the path walked, and
+    crosses rooms on their free floor.
 
-    FROM and TO are a place (office1: its middle), a label (kitchen: the nearest of them), or
-    coordinates in metres (x,y on the floor of map.yaml, or x,y,z in the trajectory's world).
+    FROM and TO are a place (office1: its middle), a label (kitchen: the nearest one), or
+    coordinates in metres (x,y on the floor of map.yaml, or x,y,z in the world frame of the
+    trajectory).
 
     \b
     Examples:

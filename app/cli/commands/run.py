@@ -22,9 +22,9 @@ def run(
 ) -> None:
     """Map and label an RGB-D sequence.
 
-    Finds the camera's motion, builds a coloured map and, with a place model, says what kind of
-    place each part is. Writes a run's folder: trajectory, map, topological graph, metrics and a
-    Rerun recording.
+    Estimates the camera's trajectory, builds a coloured map and, with a place model, labels each
+    part with its kind of place. Writes a run folder: trajectory, map, topological graph, metrics
+    and a Rerun recording.
 
     Examples:
 
@@ -59,4 +59,4 @@ def run(
     terminal.say(summary(metrics))
     if report:
         terminal.say(f"Report: {folder.report}")
-    terminal.say(f"Written to {folder.root}; look at it with: roomgraph view {folder.root}")
+    terminal.say(f"Written to {folder.root}; view it with: roomgraph view {folder.root}")

@@ -1,4 +1,4 @@
-"""``roomgraph synth``: render a building to a sequence on disk."""
+"""``roomgraph synth``: render a sequence of a synthetic building."""
 
 from __future__ import annotations
 
@@ -12,26 +12,28 @@ from roomgraph.app.cli import options
 
 def synth(
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="DIR", help="Where to write the sequence.")
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the sequence.")
     ],
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Chooses the building.")] = 0,
-    light: Annotated[str, typer.Option("--light", help="day, dusk or night.")] = "day",
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the building.")] = 0,
+    light: Annotated[str, typer.Option("--light", help="Light: day, dusk or night.")] = "day",
     noise: Annotated[
-        float, typer.Option("--noise", min=0, help="Of both images; 1 is a Kinect's, 0 none.")
+        float, typer.Option("--noise", min=0, help="Noise of both images: 1 as a Kinect, 0 none.")
     ] = 1.0,
     step: Annotated[
-        float, typer.Option("--step", metavar="M", help="Way between two frames, metres.")
+        float, typer.Option("--step", metavar="M", help="Distance between two frames, metres.")
     ] = 0.08,
-    laps: Annotated[int, typer.Option("--laps", min=1, help="Times round the floor.")] = 1,
+    laps: Annotated[
+        int, typer.Option("--laps", min=1, help="Number of laps around the floor.")
+    ] = 1,
     frames: options.FramesOption = None,
-    width: Annotated[int, typer.Option("--width", help="Of the images, pixels.")] = 640,
-    height: Annotated[int, typer.Option("--height", help="Of the images, pixels.")] = 480,
+    width: Annotated[int, typer.Option("--width", help="Image width, pixels.")] = 640,
+    height: Annotated[int, typer.Option("--height", help="Image height, pixels.")] = 480,
     overwrite: options.OverwriteOption = False,
     quiet: options.QuietOption = False,
 ) -> None:
-    """Render a walk through a made-up office floor.
+    """Render a walk through a synthetic office floor.
 
-    With exact poses and room labels. Writes a TUM sequence: rgb/, depth/, camera.json,
+    Writes a TUM sequence with ground-truth poses and room labels: rgb/, depth/, camera.json,
     groundtruth.txt and places.csv.
 
     Examples:

@@ -1,4 +1,4 @@
-"""``roomgraph train``: learn a place model."""
+"""``roomgraph train``: train a place model."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ def train(
     quiet: options.QuietOption = False,
     verbose: options.VerboseOption = False,
 ) -> None:
-    """Learn places from labelled images or sequences.
+    """Train a place model on labelled images or sequences.
 
-    A descriptor, which makes a vector of an image, and a classifier. Each DATA is a folder with a
-    subfolder of images for each class, or an RGB-D sequence with a places.csv (timestamp,label).
+    A place model is an image descriptor and a classifier. Each DATA is a folder with a subfolder
+    of images for each class, or an RGB-D sequence with a places.csv (timestamp,label).
 
     Examples:
 
@@ -57,7 +57,7 @@ def train(
     images = ", ".join(f"{name} {count}" for name, count in model.training["images"].items())
     terminal.say(f"Learned {len(model.labels) - 1} places from: {images}")
     terminal.say(
-        f"Right on held-out images: {model.training['cross_validated_accuracy']:.1%}, "
-        f"where chance is {1 / (len(model.labels) - 1):.1%}. "
+        f"Accuracy on held-out images: {model.training['cross_validated_accuracy']:.1%} "
+        f"(chance: {1 / (len(model.labels) - 1):.1%}). "
         f"Model written to {output}"
     )

@@ -13,7 +13,7 @@ HOST, WEB_PORT, DATA_PORT = "127.0.0.1", 9090, 9876
 def view(
     run: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run.")],
     web: Annotated[
-        bool, typer.Option("--web", help="In the browser, on this machine only.")
+        bool, typer.Option("--web", help="Open it in the browser, on this machine only.")
     ] = False,
 ) -> None:
     """Open a run's recording in Rerun.
@@ -41,7 +41,7 @@ def view(
         command += ["--web-viewer", "--bind", HOST, "--web-viewer-port", str(WEB_PORT)]
         command += ["--port", str(DATA_PORT)]
         source = quote(f"rerun+http://{HOST}:{DATA_PORT}/proxy", safe="")
-        typer.echo(f"Open http://{HOST}:{WEB_PORT}/?url={source} on this machine; Ctrl-C ends it")
+        typer.echo(f"Open http://{HOST}:{WEB_PORT}/?url={source} on this machine; stop with Ctrl-C")
     try:
         status = subprocess.run(command, check=False).returncode
     except KeyboardInterrupt:

@@ -41,4 +41,4 @@ def test_a_node_says_what_spoke_for_it():
 def test_frames_are_told_as_ranges():
     assert ranges(()) == ""
     assert ranges((1, 2, 12, 23)) == "1\N{EN DASH}12, 23"
-    assert ranges(range(0, 2000, 100)).endswith("500 and 14 more stretches")
+    assert ranges(range(0, 2000, 100)).endswith("500 and 14 more ranges")

@@ -98,7 +98,7 @@ def test_an_image_of_half_the_size_is_located(ask, mapped, rendered_walk, tmp_pa
 def test_a_walk_is_followed(ask, rendered_walk):
     told = ask("locate", rendered_walk, "--stride", "5").splitlines()
     assert "s: you are in" in told[0]
-    assert told[-1] == "12 frames: 12 with a place, 12 with a pose"
+    assert told[-1] == "12 frames: place found for 12, pose found for 12"
 
 
 def test_a_folder_of_images_is_located_by_name(ask, rendered_walk):
@@ -109,7 +109,7 @@ def test_a_folder_of_images_is_located_by_name(ask, rendered_walk):
 
 def test_an_image_of_nothing_is_not_located(ask, tmp_path):
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((240, 320, 3), 127, np.uint8))
-    assert "I do not know this place" in ask("locate", tmp_path / "grey.png")
+    assert "Place not recognised." in ask("locate", tmp_path / "grey.png")
 
 
 def test_speaking_without_a_voice_still_answers(ask, rendered_walk, tmp_path, monkeypatch, capsys):

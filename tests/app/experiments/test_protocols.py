@@ -67,7 +67,10 @@ def test_route_along_a_rendered_walk(rendered_walk, photos, tmp_path, monkeypatc
     assert 2 <= rows[-2]["images"] < 20
     assert content["rooms"] >= content["rooms_told_apart"] >= 0
     # The photographs show other kinds of place than the walk.
-    assert any("Nobody taught" in note and "elevator_area" in note for note in content["notes"])
+    assert any(
+        "Not in the training data of the model" in note and "elevator_area" in note
+        for note in content["notes"]
+    )
 
 
 def test_vocabulary(photos, tmp_path, monkeypatch):

@@ -75,9 +75,9 @@ def test_the_page_says_what_was_found(mapped):
     for room in graph.rooms:
         assert room.name in text
         assert f"{room.area_m2:.1f} m²" in text
-    assert f"off by {metrics['ate_rmse_m'] * 100:.2f} cm" in text
-    assert "Trajectory against the truth" in text
-    assert "A rendered building: its true path and rooms are known" in text
+    assert f"(ATE): {metrics['ate_rmse_m'] * 100:.2f} cm RMSE" in text
+    assert "Trajectory compared with the ground truth" in text
+    assert "A rendered building: errors are measured against its true path and rooms" in text
     assert "Labels over time" in text
     assert "Why these labels" in text
     for reason in place_reasons(graph):
@@ -156,7 +156,7 @@ def test_without_the_sequence_the_report_leaves_the_truth_out(mapped, tmp_path):
     shutil.copytree(mapped[1], copy)
     (copy / "input.toml").write_text(f'sequence = "{tmp_path / "gone"}"\n')
     write_report(RunFolder(copy))
-    assert "Trajectory against the truth" not in " ".join(page_of(copy).words)
+    assert "Trajectory compared with the ground truth" not in " ".join(page_of(copy).words)
 
 
 def test_no_report_leaves_it_out(rendered_walk, tmp_path, monkeypatch):
@@ -175,7 +175,7 @@ def test_the_report_command_makes_it_again(mapped, tmp_path, monkeypatch, capsys
     assert roomgraph(monkeypatch, "report", copy) == 0
     assert str(copy / "report.html") in capsys.readouterr().out
     text = " ".join(page_of(copy).words)
-    assert "from_a_newer" in text and "Other than the defaults" in text
+    assert "from_a_newer" in text and "Changed from the defaults" in text
     assert roomgraph(monkeypatch, "report", tmp_path) == 1
     assert capsys.readouterr().err.startswith("roomgraph: ")
 
@@ -206,9 +206,11 @@ def test_places_without_labels_are_told_why(mapped):
     assert "corridor1" in _summary_words(metrics)
     unnamed = metrics | {"places": ["room1", "room2"]}
     known = ", ".join(metrics["labels"])
-    assert f"2, none looks like what the model knows: {known}" in _summary_words(unnamed)
-    assert "2, not labelled (a model" in _summary_words(unnamed | {"labels": []})
-    assert "not labelled (a model" in _summary_words(unnamed | {"labels": [], "places": []})
+    assert f"2, none recognised by the model, which knows {known}" in _summary_words(unnamed)
+    assert "2, not labelled (no place model given" in _summary_words(unnamed | {"labels": []})
+    assert "not labelled (no place model given" in _summary_words(
+        unnamed | {"labels": [], "places": []}
+    )
 
 
 def test_a_model_that_knows_no_place_is_a_warning(mapped, tmp_path):
@@ -219,4 +221,7 @@ def test_a_model_that_knows_no_place_is_a_warning(mapped, tmp_path):
         node |= {"label": "unknown", "label_id": 0}
     (copy / "graph.json").write_text(json.dumps(content))
     write_report(RunFolder(copy))
-    assert any("no place looks like what the model knows" in words for words in page_of(copy).words)
+    assert any(
+        "no place was recognised by the model, which knows" in words
+        for words in page_of(copy).words
+    )

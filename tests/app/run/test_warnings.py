@@ -26,7 +26,7 @@ def test_a_wrong_depth_scale_is_said_logged_and_kept(rendered_walk, tmp_path, mo
     assert roomgraph(monkeypatch, *arguments) == 0
     folder = RunFolder(out)
     warning = folder.read_metrics()["warnings"][0]
-    assert "--depth-scale 5000 gives usual indoor distances" in warning
+    assert "--depth-scale 5000 gives typical indoor distances" in warning
     assert f"warning: {warning}" in capsys.readouterr().out
     assert f"WARNING roomgraph.app.run.session depth scale: {warning}" in folder.log.read_text()
 
@@ -36,7 +36,7 @@ def test_an_impossible_one_is_named_by_the_error(rendered_walk, tmp_path, monkey
     assert roomgraph(monkeypatch, *arguments, "--no-rrd") == 1
     said = capsys.readouterr().err
     assert "no frame could be tracked" in said
-    assert "--depth-scale 5000 gives usual indoor distances" in said
+    assert "--depth-scale 5000 gives typical indoor distances" in said
     assert said.count("\n") == 1
 
 

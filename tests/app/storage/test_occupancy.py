@@ -46,5 +46,5 @@ def test_it_means_to_nav2_what_it_means_here(tmp_path, grid):
 @pytest.mark.parametrize("text", ["", "image: map.pgm\n", "- 1\n", "image: [\n"])
 def test_what_is_no_grid_is_said_so(tmp_path, text):
     (tmp_path / "map.yaml").write_text(text)
-    with pytest.raises(AppError, match="not understood"):
+    with pytest.raises(AppError, match="invalid occupancy grid"):
         read_occupancy(tmp_path / "map.yaml")

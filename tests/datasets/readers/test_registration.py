@@ -77,5 +77,5 @@ def test_the_nearer_surface_hides_the_farther():
 def test_a_wrong_size_tells_of_depth_cameras(tmp_path):
     camera = Camera(COLOUR, 1000.0, "made up")
     colour, depth = np.zeros((240, 320, 3), np.uint8), np.ones((48, 64), np.float32)
-    with pytest.raises(DatasetError, match=r"320x240.*64x48.*camera of its own"):
+    with pytest.raises(DatasetError, match=r"320x240.*64x48.*separate depth camera"):
         rectify(colour, depth, camera, tmp_path / "d.png")

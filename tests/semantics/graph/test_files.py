@@ -156,5 +156,5 @@ def test_reader_refuses_a_node_without_position(tmp_path, graph):
     content = json.loads(path.read_text())
     content["nodes"][1]["position"] = [1, 2]
     path.write_text(json.dumps(content))
-    with pytest.raises(SemanticsError, match="not understood"):
+    with pytest.raises(SemanticsError, match="invalid semantic graph"):
         read_graph_json(path)

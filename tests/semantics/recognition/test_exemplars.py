@@ -45,5 +45,5 @@ def test_the_model_takes_in_a_new_class_and_keeps_the_old(tmp_path):
 def test_without_exemplars_or_images_nothing_is_learned():
     with pytest.raises(SemanticsError, match="exemplars"):
         learn_more(tiny_model(), [np.ones(4)], "attic", "visit")
-    with pytest.raises(SemanticsError, match="nothing to learn"):
+    with pytest.raises(SemanticsError, match="no image to learn from"):
         learn_more(with_exemplars(), [], "attic", "visit")

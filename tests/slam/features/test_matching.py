@@ -113,7 +113,7 @@ def test_blank_image_has_no_features():
 
 
 def test_surf_missing_is_said():
-    with pytest.raises(SlamError, match="SURF is not in this build"):
+    with pytest.raises(SlamError, match="this build of OpenCV has no SURF"):
         FeatureExtractor(FeatureSettings(detector="surf"))
 
 
