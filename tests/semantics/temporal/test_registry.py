@@ -8,21 +8,21 @@ from roomgraph.semantics.recognition.transitions import count_transitions
 from roomgraph.semantics.temporal.look import Look
 from roomgraph.semantics.temporal.registry import TEMPORAL_MODELS
 from roomgraph.semantics.temporal.settings import LabellerSettings
+from tests.semantics.helpers import KINDS
 
-NAMES = ("bathroom", "corridor", "kitchen")
-EVEN = count_transitions((), NAMES)
+EVEN = count_transitions((), KINDS)
 
 
 def look(order, label_id, sure=0.6):
     probabilities = np.full(4, (1 - sure) / 2)
     probabilities[0], probabilities[label_id] = 0.0, sure
-    prediction = PlacePrediction(NAMES[label_id - 1], label_id, sure, probabilities, np.empty(0))
+    prediction = PlacePrediction(KINDS[label_id - 1], label_id, sure, probabilities, np.empty(0))
     return Look(order, order, 0.5, prediction)
 
 
 @pytest.fixture(params=list(TEMPORAL_MODELS))
 def model(request):
-    return TEMPORAL_MODELS[request.param](EVEN, LabellerSettings(method=request.param))
+    return TEMPORAL_MODELS[request.param](EVEN, 4.0)
 
 
 def test_looks_that_agree_are_believed(model):
@@ -47,7 +47,7 @@ def test_looks_taken_for_good_are_not_needed_again(model):
 
 
 def test_a_tie_of_votes_goes_to_the_surer_label():
-    vote = TEMPORAL_MODELS["vote"](EVEN, LabellerSettings(method="vote"))
+    vote = TEMPORAL_MODELS["vote"](EVEN, 4.0)
     looks = [look(0, 1, 0.5), look(1, 3, 0.9)]
     found = vote.belief(0, looks, looks)
     assert found.label_id == 3
