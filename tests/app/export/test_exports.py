@@ -300,7 +300,7 @@ def test_what_cannot_be_exported(run, tmp_path, monkeypatch, capsys):
 
     assert "graph-csv" in said(run.root, "docx")
     (tmp_path / "empty").mkdir()
-    assert "lacks" in said(tmp_path / "empty", "ply")
+    assert "has no such output" in said(tmp_path / "empty", "ply")
     assert "not the folder of a finished run" in said(tmp_path / "empty", "kitti")
     assert "no such folder" in said(run.root, "ply", "-o", tmp_path / "nowhere" / "map.ply")
     assert "NAME.pcd" in said(run.root, "pcd", "-o", tmp_path / "map.xyz")
