@@ -128,13 +128,13 @@ def test_only_our_own_output_is_ever_removed(tmp_path):
         clear_output(ours, overwrite=False, marks=RUN_MARKS)
     clear_output(ours, overwrite=True, marks=RUN_MARKS)
     assert not ours.exists()
-    with pytest.raises(AppError, match="not ours"):
+    with pytest.raises(AppError, match="refusing to overwrite what is not roomgraph output"):
         clear_output(other, overwrite=True, marks=RUN_MARKS)
     assert other.exists()
 
 
 def test_unfinished_run_is_said(tmp_path):
-    with pytest.raises(AppError, match="or the run did not end"):
+    with pytest.raises(AppError, match="not the folder of a finished run"):
         RunFolder(tmp_path).read_metrics()
 
 

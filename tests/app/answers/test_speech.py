@@ -105,7 +105,7 @@ def test_a_walk_goes_on_in_writing_when_the_voice_fails(tmp_path, monkeypatch, c
     assert "2.00 s: you are in office 2 (90% sure)" in out
     assert "you are entering corridor 1" in out
     assert "12 frames: place found for 12, pose found for 12" in out
-    assert error.count("the voice failed") == 1
+    assert error.count("speech output failed") == 1
     assert (tmp_path / "asked").read_text() == "x\n"
 
 

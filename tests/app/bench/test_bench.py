@@ -134,6 +134,6 @@ def test_a_measuring_process_that_is_killed_is_said(job):
 
     killer = Thread(target=kill_the_first)
     killer.start()
-    with pytest.raises(AppError, match="ended from outside"):
+    with pytest.raises(AppError, match="the benchmark process was killed"):
         bench_alone(job)
     killer.join()

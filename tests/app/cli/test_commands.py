@@ -102,7 +102,9 @@ def test_inputs_that_are_none(tmp_path, monkeypatch, capsys):
     (tmp_path / "empty").mkdir()
     assert "an empty folder" in _fails(monkeypatch, capsys, "run", tmp_path / "empty")
     assert "an empty folder" not in _fails(monkeypatch, capsys, "view", tmp_path / "empty")
-    assert "not a run" in _fails(monkeypatch, capsys, "eval", tmp_path / "empty")
+    assert "not the folder of a finished run" in _fails(
+        monkeypatch, capsys, "eval", tmp_path / "empty"
+    )
     model = tmp_path / "empty"
     assert str(model) in _fails(monkeypatch, capsys, "label", model, tmp_path)
     assert "no training images" in _fails(
@@ -140,7 +142,7 @@ def test_outputs_are_not_overwritten_unasked(mapped, rendered_walk, tmp_path, mo
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine/thesis.tex").write_text("dear to me")
     said = _fails(monkeypatch, capsys, "run", rendered_walk, "-o", tmp_path / "mine", "--overwrite")
-    assert "not ours" in said
+    assert "refusing to overwrite what is not roomgraph output" in said
     # A model is refused before anything is learned: here there is nothing to learn from.
     (tmp_path / "empty").mkdir()
     said = _fails(monkeypatch, capsys, "train", tmp_path / "empty", "-o", tmp_path / "mine")
@@ -252,7 +254,7 @@ def test_a_folder_with_ones_own_labels_is_never_overwritten(tmp_path, monkeypatc
     precious.mkdir()
     (precious / "places.csv").write_text("timestamp,label\n")
     said = _fails(monkeypatch, capsys, "synth", "-o", precious, "--overwrite")
-    assert "not ours" in said
+    assert "refusing to overwrite what is not roomgraph output" in said
     assert (precious / "places.csv").exists()
 
 

@@ -103,7 +103,7 @@ def test_kitti_says_which_frames_have_no_pose(run, tmp_path, monkeypatch, capsys
     path = tmp_path / "poses.txt"
     assert roomgraph(monkeypatch, "export", folder.root, "kitti", "-o", path) == 0
     said = capsys.readouterr().out
-    assert "3 of 60 frames have no pose and so no line: 4-5, 9;" in said
+    assert "3 of 60 frames have no pose and no line: 4-5, 9;" in said
     with (tmp_path / "poses_frames.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [row["line"] for row in rows[3:11]] == ["3", "", "", "4", "5", "6", "", "7"]
@@ -300,8 +300,8 @@ def test_what_cannot_be_exported(run, tmp_path, monkeypatch, capsys):
 
     assert "graph-csv" in said(run.root, "docx")
     (tmp_path / "empty").mkdir()
-    assert "lacks" in said(tmp_path / "empty", "ply")
-    assert "not a run" in said(tmp_path / "empty", "kitti")
+    assert "has no such output" in said(tmp_path / "empty", "ply")
+    assert "not the folder of a finished run" in said(tmp_path / "empty", "kitti")
     assert "no such folder" in said(run.root, "ply", "-o", tmp_path / "nowhere" / "map.ply")
     assert "NAME.pcd" in said(run.root, "pcd", "-o", tmp_path / "map.xyz")
     assert "NAME.yaml" in said(run.root, "nav2", "-o", tmp_path / "map.png")

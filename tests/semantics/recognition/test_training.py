@@ -134,7 +134,7 @@ def test_words_are_learned_from_a_bounded_sample(folder):
 
 def test_one_label_is_too_few(folder):
     examples = [e for e in folder_examples(folder) if e.label == "discs"]
-    with pytest.raises(SemanticsError, match="two labels or more; got discs"):
+    with pytest.raises(SemanticsError, match="at least two labels; got discs"):
         train(examples, FEATURES, SETTINGS)
 
 
