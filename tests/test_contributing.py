@@ -24,7 +24,7 @@ def extended(tmp_path_factory) -> Path:
     for floor in FLOORS:
         shutil.copytree(ROOT / floor, root / floor, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / ".typing", root / ".typing", symlinks=True)
-    file, line = re.findall(r"```python\n(.*?)```", SECTION, re.DOTALL)[:2]
+    file, line = re.findall(r"```(?:python|text)\n(.*?)```", SECTION, re.DOTALL)[:2]
     folder = root / "semantics" / "descriptors"
     (folder / "mean_colour.py").write_text(file)
     registry = folder / "registry.py"

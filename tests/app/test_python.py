@@ -22,7 +22,7 @@ def test_the_program_of_the_readme(rendered_walk, mapped, tmp_path, monkeypatch,
     said = capsys.readouterr().out.splitlines()
     assert re.match(r"\d+ keyframes, camera at \[", said[0])
     assert said[1] in ("corridor", "elevator_area", "office")
-    assert re.match(r"\('\w+', .*\) \d+\.\d m \w+", said[2])
+    assert re.match(r"\('\w+', .*\) \d+\.\d+ \w+", said[2])
 
 
 def test_every_public_name_is_there():
