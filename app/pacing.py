@@ -15,7 +15,7 @@ class GrowthGate:
     step : int
         The least growth, but for the very first.
     parts : int
-        Growth by one part in so many, where that is more.
+        Reciprocal of the growth that is needed, where that is more.
     """
 
     def __init__(self, step: int, parts: int) -> None:

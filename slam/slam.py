@@ -143,7 +143,7 @@ class Slam:
         Raises
         ------
         SlamError
-            Its keyframe is not in the graph: it failed in the making.
+            Its keyframe is not in the graph: making it failed.
         """
         return self.pose_graph.component_of(anchor.keyframe)
 

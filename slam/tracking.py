@@ -95,7 +95,7 @@ class Tracking:
     def features(self) -> Features:
         """The features, shared with the semantic layer; none of frames tracked without.
 
-        Waits for those of a keyframe in the making.
+        Waits for those of a keyframe that is still being made.
         """
         return Features.none() if self.view is None else self.view.features
 

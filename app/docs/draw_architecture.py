@@ -109,7 +109,7 @@ def within(floor: str, arrows: Counter[tuple[Box, Box]]) -> list[tuple[Box, Box]
 
 
 def thickness(count: int) -> float:
-    """Return the width of a line for so many imports, in points."""
+    """Return the width of a line for a number of imports, in points."""
     return float(0.6 + 0.55 * count**0.5)
 
 

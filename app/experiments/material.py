@@ -75,7 +75,7 @@ def gather(
     seeds : sequence of int
         Of the rendered buildings.
     stride : int
-        Every so many images of a rendered walk are taken.
+        Every n-th image of a rendered walk is taken.
     """
     if data:
         walks = data_walks(data)

@@ -15,7 +15,7 @@ from roomgraph.semantics.evaluation.open_set import OpenSetEvaluation
 
 # Letters on a line beside a bar.
 _NAME_WIDTH = 24
-# A few bars are drawn no thicker than so many would be.
+# With fewer bars than this, bars are drawn as thick as with this many.
 _FEWEST_BARS = 5
 # The figure stands inside bars longer than this, percent.
 _ROOM_FOR_FIGURE = 15

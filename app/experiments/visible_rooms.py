@@ -20,9 +20,9 @@ from roomgraph.datasets.vectors import arc_lengths
 from roomgraph.semantics.evaluation.visible_rooms import RoomIndex
 from roomgraph.semantics.recognition.examples import Example
 
-# So many images in a row make a stretch: about 2.5 m of the way, or a third of a turn.
+# Number of successive images in a stretch: about 2.5 m of the way, or a third of a turn.
 STRETCH = 8
-# Every so many pixels across and down say which room an image shows.
+# Every n-th pixel across and down says which room an image shows.
 _PIXEL_STEP = 8
 # The step between two images, where nobody knows where they were taken.
 _UNKNOWN_STEP_M = 0.1

@@ -26,7 +26,7 @@ NUMBERS = (10, 25, 50, 100, 200, 400)
 SEEDS = (0, 1, 2)
 # It takes minutes and hardly differs between seeds: once is enough.
 ONCE = ("k-means",)
-# Descriptors: a sample of so many, from every so many images of the walks.
+# Maximum number of descriptors sampled, from every n-th image of the walks.
 MOST, IMAGE_STRIDE = 200_000, STRIDE // 2
 # The number of words that the paper settles on.
 CHOSEN = 100

@@ -29,7 +29,7 @@ _EM, _TIGHT, _ONE_LINE, _TWO_LINES = 0.8, 0.7, 1.5, 2.8
 # Names on one line, where two are not clear of the way, are smaller.
 _SMALLER = 0.8
 # Names are tried at least so far apart, need to be no further than this from the way, and are tried
-# at so many spots across a room at most.
+# maximum number of spots tried across a room.
 _SPOT_M, _CLEAR_M, _MOST_SPOTS = 0.1, 0.15, 20
 _WALL, _FURNITURE = (60, 64, 72, 255), (120, 126, 136, 130)
 _SEEN = (243, 243, 240, 255)

@@ -69,7 +69,7 @@ class FrameHistory:
                     state = TrackingState.RELOCALISED
                 tracking = replace(tracking, state=state)
             else:
-                if anchor.keyframe in self.slam.keyframes:  # else it failed in the making
+                if anchor.keyframe in self.slam.keyframes:  # else making it failed
                     submap = self.slam.submap_of(anchor)
                     way = (tracking.stamp_s, self.slam.pose_of(anchor))
                     apart.setdefault(submap, []).append(way)

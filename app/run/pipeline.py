@@ -38,8 +38,8 @@ Progress = Callable[[int, int, str], None]
 
 # Frames that labelling stays behind tracking.
 LABEL_LAG = 8
-# A large map or graph is drawn again once it has grown by one part in so many, even if a loop has
-# bent it before: all drawings together cost as much as so many of the last.
+# A large map or graph is drawn again once it has grown by this fraction (1 / n), even if a loop has
+# bent it before: all drawings together cost about as much as n of the last.
 GROWTH_PARTS = 16
 
 
@@ -144,7 +144,7 @@ class Pipeline:
         return FrameInput(
             tracking.index, tracking.stamp_s,
             colour=view.frame.colour if view is not None and tracking.is_keyframe else None,
-            # Of a keyframe in the making they are waited for.
+            # Features of a keyframe that is still being made are waited for.
             features=tracking.features if self.labeller.uses_features else None,
             position_world=None if T is None else T[:3, 3],
         )  # fmt: skip

@@ -41,7 +41,7 @@ _TRACKING, _LABEL = "timeline/tracking", "timeline/label"
 class RerunViewer:
     """Sends a run to Rerun. Without global state: several may work at once.
 
-    Maps on the way are thinned, and left out where they come too thick and fast. The last one is
+    Maps drawn during the run are thinned, and left out where they come too often. The last one is
     drawn densely, and the views are set on it, when the viewer is closed.
 
     Parameters
@@ -251,7 +251,7 @@ class RerunViewer:
     def _draw_cloud(self, whole: MapView, at_most: int) -> FloatArray:
         """Draw the map's points; return those (N, 3) that are not hidden."""
         view = thinned_map(whole, at_most)
-        # Fewer points are drawn bigger, so that a map on the way does not look like dust.
+        # Fewer points are drawn bigger, so that a map drawn during the run does not look like dust.
         thinning = len(whole.points) / max(len(view.points), 1)
         radius = self.settings.point_radius_m * min(max(thinning, 1.0) ** 0.5, 2.0)
         up = self._axes().up

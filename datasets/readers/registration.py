@@ -91,7 +91,7 @@ def _rays(camera: DepthCamera, factor: int) -> NDArray[np.float32]:
 
 
 def _denser(depth: NDArray[np.float32], factor: int) -> NDArray[np.float32]:
-    """Return depth in so many times as many rows and columns; surfaces are never mixed."""
+    """Return depth with a multiple of its rows and columns; surfaces are never mixed."""
     kernel = np.ones((3, 3), np.uint8)
     far = cv2.dilate(depth, kernel)
     near = cv2.erode(depth, kernel)  # 0 beside holes

@@ -22,7 +22,7 @@ from roomgraph.semantics.descriptors.fisher_encoder import FisherEncoder
 from roomgraph.semantics.descriptors.words import Vectors, WordsDescriptor, WordsSettings
 from roomgraph.slam.features.extraction import Features, FeatureSettings
 
-# The encoder is learned from so many dense descriptors of an image, of so many images at most.
+# Dense descriptors per image, and maximum number of images, that the encoder is learned from.
 _PER_IMAGE, _IMAGES = 200, 500
 # Before the names of the arrays of the words.
 _SIGNATURE = "signature_"

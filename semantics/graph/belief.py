@@ -28,7 +28,7 @@ def propagate(
     """Return the belief (N, K) of each node, given the predictions of all nodes.
 
     A Markov field over the graph: two nodes joined by an edge are of different kinds with the
-    chance of having left a kind of place on the way, ``1 - exp(-length / change_m)``, and then as
+    chance of having left a kind of place in between, ``1 - exp(-length / change_m)``, and then as
     `transitions` say. Solved by loopy belief propagation (Pearl, 1988), which is exact where the
     graph is a chain: then it is the forward-backward algorithm.
 
@@ -45,7 +45,7 @@ def propagate(
     fixed : mapping of int to int, optional
         Nodes whose kind is known, because somebody said so.
     steps : int
-        At most so many rounds.
+        Maximum number of rounds.
     """
     own = np.log(np.maximum(probabilities, _LEAST))
     for node, kind in (fixed or {}).items():

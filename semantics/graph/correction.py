@@ -39,7 +39,7 @@ def correct(graph: SemanticGraph, place: str, label: str, change_m: float) -> Co
     """Give a place of the graph another label, and infer its neighbours again.
 
     The nodes of the place are certain from now on. Beliefs are propagated over the graph from
-    them and from what the other nodes looked like; nodes that hang together with the place and
+    them and from what the other nodes looked like; nodes that are connected to the place and
     now believe in the same label belong to it as well.
 
     Parameters

@@ -64,7 +64,7 @@ class PlaceNames:
     by more than `min_difference` and lies more than `min_distance_m` from all their nodes; the
     second condition keeps a return to a known place from opening another.
 
-    The rule is put to a stay as a whole: the nodes of one label that hang together in space. Were
+    The rule is put to a stay as a whole: the nodes of one label that are connected in space. Were
     each node asked alone, the first one in a second office, still in its door, would often
     resemble some view of the first office, and all that follow would be near that first one. So a
     stay that is far from the known nodes, but resembles one, bears that one's name for the time

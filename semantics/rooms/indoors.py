@@ -10,15 +10,15 @@ from roomgraph.semantics.rooms.settings import RegionSettings
 from roomgraph.semantics.rooms.watershed import NEIGHBOURS, BoolImage, RegionImage
 from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 
-# A cell is solid from so many hits, and clear where more than so many rays passed for each hit.
+# Minimum hits of a solid cell, and minimum rays per hit that pass through a clear one.
 _SOLID, _CLEAR = 2, 2
-# A lintel begins within so many cells of a wall.
+# Maximum distance of a lintel from its wall, cells.
 _HOLD = 2
 # A hole in what was seen is room if less of its ring than this is wall.
 _OPEN_RING = 0.2
-# So many cells may an edge be ragged: depth noise, and a wall between two cells.
+# Raggedness that an edge may have, cells: depth noise, and a wall between two cells.
 _RAGGED = 2
-# So many cells from a wall is away from it: its noise, and a cell's diagonal.
+# Minimum distance at which something is away from a wall, cells: its noise, and a cell's diagonal.
 _AWAY = 2.5
 
 

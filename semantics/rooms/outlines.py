@@ -12,7 +12,7 @@ from roomgraph.slam.reconstruction.occupancy_volume import OccupancyVolume
 FloatArray = NDArray[np.float64]
 # A spot's distance to the walls, as a share of the largest, from which it is far from them.
 _INNERMOST = 0.8
-# Outlines are drawn on cells cut into so many, and simplified by up to so many cells.
+# Parts that a cell is divided into to draw outlines, and tolerance of their simplification, cells.
 _FINER, _SIMPLIFIED = 3, 1.5
 
 

@@ -28,7 +28,7 @@ from roomgraph.slam.keyframe import Keyframe
 
 FloatArray = NDArray[np.float64]
 
-# So many of each side's strongest features are compared at first, and so many must agree.
+# Number of strongest features of each side that are compared first, and how many must agree.
 GLANCE = 300
 GLANCE_INLIERS = 8
 

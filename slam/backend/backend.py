@@ -23,7 +23,7 @@ from roomgraph.slam.tracking import LoopClosure
 
 FloatArray = NDArray[np.float64]
 
-# Keyframes in the making while tracking goes on.
+# Maximum number of keyframes that are being made while tracking goes on.
 IN_FLIGHT = 4
 
 
@@ -60,7 +60,7 @@ class Backend:
     Attributes
     ----------
     poses : dict of int to (4, 4) float64
-        T_world_keyframe as far as known now, also of keyframes in the making.
+        T_world_keyframe as far as known now, also of keyframes that are still being made.
     keyframes : dict of int to Keyframe
         The finished ones.
     closures : tuple of LoopClosure

@@ -79,7 +79,7 @@ class Mapper:
     def describe(self, keyframe_id: int, view: View) -> Keyframe:
         """Create a keyframe from a view; may run ahead in a separate thread.
 
-        Of the map it only changes the vocabulary, which grows on the way: views are to come in
+        Of the map it only changes the vocabulary, which grows online: views are to come in
         order.
         """
         frame = view.frame

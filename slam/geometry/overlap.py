@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 
 # Fewer cells in common tell nothing.
 FEWEST = 50
-# Surfaces are the same within so many metres, and so much of their distance.
+# Surfaces are the same within this many metres plus this share of their distance.
 TOLERANCE_M, TOLERANCE_SHARE = 0.05, 0.03
 # Blocks across a view within which greys are compared: light and dark halves are much the same
 # everywhere.

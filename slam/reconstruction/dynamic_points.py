@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 SIGMAS = 3.0
 NEAREST_M = 0.1
-# Blocks are hidden if they lie behind all readings within so many cells of their centre.
+# Blocks are hidden if they lie behind all readings within this many cells of their centre.
 AROUND = 20
 
 

@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 SCHEMA = "roomgraph/keyframes/2"
 # The first form had `is_binary` in place of `descriptor_storage`, and bytes for all descriptors.
 FIRST_SCHEMA = "roomgraph/keyframes/1"
-# Of a keyframe's features with depth, the strongest so many are kept: about 75 kB.
+# Maximum number of features with depth kept per keyframe, the strongest: about 75 kB.
 MAX_FEATURES = 500
 
 

@@ -33,7 +33,7 @@ class WordIndex:
 
     The vocabulary needs no training: a descriptor far from every word becomes a word itself
     (leader clustering), until there are enough. After Sivic & Zisserman (2003), and Angeli et
-    al. (2008) for the vocabulary made on the way.
+    al. (2008) for the vocabulary that grows online.
 
     One thread may make words while another adds keyframes and ranks them.
     """
