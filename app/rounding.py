@@ -7,6 +7,9 @@ from typing import SupportsFloat
 
 
 def rounded(value: SupportsFloat, digits: int = 4) -> float | None:
-    """Return a figure rounded to a number of decimals; None for one that is not finite: JSON has no NaN."""
+    """Return a figure rounded to a number of decimals, None for one that is not finite.
+
+    JSON has no NaN.
+    """
     figure = float(value)
     return round(figure, digits) if math.isfinite(figure) else None
