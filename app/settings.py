@@ -24,13 +24,13 @@ class RecordingSettings(Settings):
     """What is written and drawn during a run."""
 
     map_every: int = Field(
-        16,
+        default=16,
         ge=2,
         description="minimum number of keyframes between updates of the displayed map; for a "
         "large map, a 16th of its keyframes",
     )
     checkpoint_every: int = Field(
-        200, ge=1, description="number of frames after which the trajectory so far is saved"
+        default=200, ge=1, description="number of frames after which the trajectory so far is saved"
     )
 
 
@@ -38,50 +38,59 @@ class ViewerSettings(Settings):
     """How much the Rerun recording holds."""
 
     frame_every_s: float = Field(
-        0.2, ge=0,
+        default=0.2, ge=0,
         description="time between displayed frames, seconds; the last frame and those where "
         "tracking is lost or recovered are always shown",
     )  # fmt: skip
     depth_every_s: float = Field(
-        0.4, ge=0, description="time between displayed depth images, seconds"
+        default=0.4, ge=0, description="time between displayed depth images, seconds"
     )
-    jpeg_quality: int = Field(75, ge=10, le=100, description="JPEG quality of the colour images")
+    jpeg_quality: int = Field(
+        default=75, ge=10, le=100, description="JPEG quality of the colour images"
+    )
     depth_step: int = Field(
-        3, ge=1, le=16, description="every n-th row and column of the depth image is displayed"
+        default=3,
+        ge=1,
+        le=16,
+        description="every n-th row and column of the depth image is displayed",
     )
     max_keypoints: int = Field(
-        400, ge=0, description="maximum number of features drawn per frame; the strongest are drawn"
+        default=400,
+        ge=0,
+        description="maximum number of features drawn per frame; the strongest are drawn",
     )
     picture_spacing_m: float = Field(
-        1.5, gt=0, description="minimum distance between keyframe pictures in the map, metres"
+        default=1.5,
+        gt=0,
+        description="minimum distance between keyframe pictures in the map, metres",
     )
     picture_turn_deg: float = Field(
-        90.0, gt=0, le=180, description="or minimum rotation between nearer ones, degrees"
+        default=90.0, gt=0, le=180, description="or minimum rotation between nearer ones, degrees"
     )
     max_points: int = Field(
-        60_000, ge=1000, description="maximum number of points of each online map"
+        default=60_000, ge=1000, description="maximum number of points of each online map"
     )
     max_points_total: int = Field(
-        1_500_000, ge=0, description="maximum number of points of all online maps together"
+        default=1_500_000, ge=0, description="maximum number of points of all online maps together"
     )
     max_points_final: int = Field(
-        300_000, ge=1000, description="maximum number of points of the final map"
+        default=300_000, ge=1000, description="maximum number of points of the final map"
     )
     point_radius_m: float = Field(
-        0.013, gt=0, le=1, description="radius of the final map's points, metres"
+        default=0.013, gt=0, le=1, description="radius of the final map's points, metres"
     )
     headroom_m: float = Field(
-        0.7,
+        default=0.7,
         gt=0,
         description="points higher than this above the path are hidden (the ceiling), metres",
     )
-    port: int = Field(9876, ge=1024, le=65535, description="port of the live viewer")
+    port: int = Field(default=9876, ge=1024, le=65535, description="port of the live viewer")
 
 
 class AppSettings(Settings):
     """All settings of a run."""
 
-    seed: int = Field(0, ge=0, description="seed of all random choices")
+    seed: int = Field(default=0, ge=0, description="seed of all random choices")
     slam: SlamSettings = SlamSettings()
     semantics: SemanticsSettings = SemanticsSettings()
     viewer: ViewerSettings = ViewerSettings()

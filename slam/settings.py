@@ -30,28 +30,28 @@ from roomgraph.slam.relocalisation.word_index import WordIndexSettings
 class LossSettings(Settings):
     """Behaviour when tracking is lost."""
 
-    submaps: bool = Field(True, description="begin a sub-map where relocalisation fails")
+    submaps: bool = Field(default=True, description="begin a sub-map where relocalisation fails")
     min_features: int = Field(
-        100, ge=15, description="minimum number of features with depth to begin a sub-map"
+        default=100, ge=15, description="minimum number of features with depth to begin a sub-map"
     )
     pause: int = Field(
-        10, ge=1, description="number of lost frames between attempts to begin a sub-map"
+        default=10, ge=1, description="number of lost frames between attempts to begin a sub-map"
     )
     min_correlation: float = Field(
-        0.5,
+        default=0.5,
         ge=-1,
         le=1,
         description="minimum correlation of grey levels between a view and its keyframe; below "
         "it, the camera is lost",
     )
     reach_m: float = Field(
-        1.0,
+        default=1.0,
         gt=0,
         le=100,
         description="a relocalisation within this distance is accepted at once, metres",
     )
     speed_m_s: float = Field(
-        1.5,
+        default=1.5,
         ge=0,
         le=100,
         description="increase of this distance for each second that the camera was lost, m/s",
@@ -62,7 +62,7 @@ class SlamSettings(Settings):
     """All of SLAM's settings."""
 
     max_depth_m: float = Field(
-        8.0, gt=0, le=200, description="depth readings beyond are ignored, metres"
+        default=8.0, gt=0, le=200, description="depth readings beyond are ignored, metres"
     )
     features: FeatureSettings = FeatureSettings()
     noise: SensorNoise = SensorNoise()

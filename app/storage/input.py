@@ -19,12 +19,16 @@ class InputOptions(Settings):
     """A sequence and how to open it, as given by the flags of `roomgraph run`."""
 
     sequence: Path = Field(description="folder of the sequence")
-    dataset: str | None = Field(None, description="layout of the dataset; detected if left out")
-    camera: Path | None = Field(None, description="camera file that replaces the sequence's own")
-    depth_scale: float | None = Field(None, gt=0, description="raw depth units per metre")
-    start: int = Field(0, ge=0, description="number of the first frame")
-    frames: int | None = Field(None, ge=1, description="maximum number of frames")
-    stride: int = Field(1, ge=1, description="every n-th frame is used")
+    dataset: str | None = Field(
+        default=None, description="layout of the dataset; detected if left out"
+    )
+    camera: Path | None = Field(
+        default=None, description="camera file that replaces the sequence's own"
+    )
+    depth_scale: float | None = Field(default=None, gt=0, description="raw depth units per metre")
+    start: int = Field(default=0, ge=0, description="number of the first frame")
+    frames: int | None = Field(default=None, ge=1, description="maximum number of frames")
+    stride: int = Field(default=1, ge=1, description="every n-th frame is used")
 
     def open(self) -> Sequence:
         """Open the sequence.

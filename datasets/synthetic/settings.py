@@ -38,16 +38,16 @@ class BuildingSettings(Settings):
         Frames a second; sets the time stamps only.
     """
 
-    seed: int = Field(0, ge=0)
+    seed: int = Field(default=0, ge=0)
     light: Light = "day"
-    noise: float = Field(1.0, ge=0, le=5)
-    width: int = Field(640, ge=32, le=1920)
-    height: int = Field(480, ge=24, le=1440)
-    step_m: float = Field(0.08, ge=0.01, le=0.5)
-    turn_deg: float = Field(4.1, ge=0.2, le=20)
-    laps: int = Field(1, ge=1, le=10)
-    frames: int | None = Field(None, ge=1)
-    rate_hz: float = Field(30.0, gt=0, le=240)
+    noise: float = Field(default=1.0, ge=0, le=5)
+    width: int = Field(default=640, ge=32, le=1920)
+    height: int = Field(default=480, ge=24, le=1440)
+    step_m: float = Field(default=0.08, ge=0.01, le=0.5)
+    turn_deg: float = Field(default=4.1, ge=0.2, le=20)
+    laps: int = Field(default=1, ge=1, le=10)
+    frames: int | None = Field(default=None, ge=1)
+    rate_hz: float = Field(default=30.0, gt=0, le=240)
 
     @property
     def intrinsics(self) -> Intrinsics:

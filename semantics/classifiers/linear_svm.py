@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 class LinearSvmSettings(Settings):
     """Settings of the linear SVM."""
 
-    C: float = Field(10.0, gt=0, description="penalty of training errors (paper: 10)")
+    C: float = Field(default=10.0, gt=0, description="penalty of training errors (paper: 10)")
 
 
 class LinearSvm(CalibratedClassifier):

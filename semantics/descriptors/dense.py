@@ -26,25 +26,25 @@ class DenseSettings(Settings):
     """Positions, scales and size of the dense descriptors."""
 
     side: int = Field(
-        200,
+        default=200,
         ge=48,
         le=1024,
         description="images are resized to a square with sides of this many pixels",
     )
     scales: int = Field(
-        4,
+        default=4,
         ge=1,
         le=8,
         description="number of image sizes; each is smaller by the square root of two",
     )
     cell: int = Field(
-        4, ge=2, le=16, description="side of a cell, pixels; a descriptor has 4 x 4 cells"
+        default=4, ge=2, le=16, description="side of a cell, pixels; a descriptor has 4 x 4 cells"
     )
     step: int = Field(
-        5, ge=1, le=32, description="distance between neighbouring descriptors, pixels"
+        default=5, ge=1, le=32, description="distance between neighbouring descriptors, pixels"
     )
     contrast: float = Field(
-        10.0, gt=0, le=100,
+        default=10.0, gt=0, le=100,
         description="norm of a gradient histogram that gets half weight; flat patches get less",
     )  # fmt: skip
 

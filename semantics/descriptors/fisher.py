@@ -32,13 +32,16 @@ class FisherSettings(Settings):
     """How images are described as a whole."""
 
     n_words: int = Field(
-        64, ge=2, le=4096, description="number of Gaussians, initialised from Neural Gas words"
+        default=64,
+        ge=2,
+        le=4096,
+        description="number of Gaussians, initialised from Neural Gas words",
     )
     n_components: int = Field(
-        64, ge=2, le=128, description="number of principal components of the descriptors"
+        default=64, ge=2, le=128, description="number of principal components of the descriptors"
     )
     em_steps: int = Field(
-        10, ge=0, le=1000, description="number of steps of expectation maximisation"
+        default=10, ge=0, le=1000, description="number of steps of expectation maximisation"
     )
     dense: DenseSettings = DenseSettings()
     signature: WordsSettings = WordsSettings()

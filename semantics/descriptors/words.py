@@ -28,18 +28,23 @@ Vectors = NDArray[np.float32]
 class WordsSettings(Settings):
     """Number of visual words, and their training."""
 
-    n_words: int = Field(100, ge=2, le=10000, description="number of visual words (paper: 100)")
+    n_words: int = Field(
+        default=100, ge=2, le=10000, description="number of visual words (paper: 100)"
+    )
     n_epochs: int = Field(
-        5, ge=1, le=1000, description="number of Neural Gas passes over the descriptors"
+        default=5, ge=1, le=1000, description="number of Neural Gas passes over the descriptors"
     )
     max_descriptors: int = Field(
-        200_000, ge=100, description="maximum number of descriptors that the words are learned from"
+        default=200_000,
+        ge=100,
+        description="maximum number of descriptors that the words are learned from",
     )
     normalisation: Normalisation = Field(
-        "hellinger", description="normalisation of the histograms: l1 (paper), l2 or hellinger"
+        default="hellinger",
+        description="normalisation of the histograms: l1 (paper), l2 or hellinger",
     )
     min_features: int = Field(
-        5, ge=1, description="images with fewer features are labelled unknown"
+        default=5, ge=1, description="images with fewer features are labelled unknown"
     )
 
 

@@ -23,13 +23,13 @@ class InstanceSettings(Settings):
     """
 
     min_difference: float = Field(
-        0.4,
+        default=0.4,
         ge=0,
         le=1.5,
         description="L2 distance of unit signatures above which two views are of different places",
     )
     min_distance_m: float = Field(
-        5.0,
+        default=5.0,
         ge=0,
         description="distance from all nodes of a place beyond which a new place begins, metres",
     )

@@ -29,15 +29,15 @@ class TopologySettings(Settings):
     """When nodes are added and joined."""
 
     node_distance_m: float = Field(
-        1.0, gt=0, description="distance travelled between nodes (paper: d = 1), metres"
+        default=1.0, gt=0, description="distance travelled between nodes (paper: d = 1), metres"
     )
     revisit_radius_m: float = Field(
-        0.6,
+        default=0.6,
         ge=0,
         description="maximum distance between a node and an older one to join them, metres",
     )
     revisit_gap: int = Field(
-        5, ge=2, description="minimum number of nodes between the two along the path"
+        default=5, ge=2, description="minimum number of nodes between the two along the path"
     )
     instances: InstanceSettings = InstanceSettings()
 

@@ -25,22 +25,22 @@ else:
 class TrainingSettings(Settings):
     """Settings of the training of a place model."""
 
-    descriptor: str = Field("fisher", description=f"one of {', '.join(DESCRIPTORS)}")
-    classifier: str = Field("linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
-    stride: int = Field(1, ge=1, description="every n-th image of each label is used")
+    descriptor: str = Field(default="fisher", description=f"one of {', '.join(DESCRIPTORS)}")
+    classifier: str = Field(default="linear_svm", description=f"one of {', '.join(CLASSIFIERS)}")
+    stride: int = Field(default=1, ge=1, description="every n-th image of each label is used")
     max_images_per_label: int = Field(
-        200, ge=2, description="maximum number of images of each label, evenly spread"
+        default=200, ge=2, description="maximum number of images of each label, evenly spread"
     )
     threads: int = Field(
-        2, ge=1, le=64, description="number of images read and described in parallel"
+        default=2, ge=1, le=64, description="number of images read and described in parallel"
     )
     reject: float = Field(
-        0.01, ge=0, lt=1,
+        default=0.01, ge=0, lt=1,
         description="share of held-out images that may be labelled unknown so that novel places "
         "are rejected",
     )  # fmt: skip
     exemplars: int = Field(
-        100, ge=0,
+        default=100, ge=0,
         description="number of images of each label kept in the model, so that it can learn other"
         " labels later",
     )  # fmt: skip

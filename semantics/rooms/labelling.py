@@ -25,23 +25,25 @@ class RoomSettings(Settings):
 
     regions: RegionSettings = RegionSettings()
     min_agreement: float = Field(
-        0.7,
+        default=0.7,
         gt=0,
         le=1,
         description="share of a region's votes above which the whole region gets one label",
     )
     min_part: float = Field(
-        0.2,
+        default=0.2,
         gt=0,
         le=1,
         description="minimum share of a region's votes for a part of it to get its own label",
     )
     min_part_m2: float = Field(
-        8.0,
+        default=8.0,
         ge=0,
         description="minimum connected floor area for such a part, square metres",
     )
-    min_doorway_m: float = Field(0.4, ge=0, description="narrower gaps are not doorways, metres")
+    min_doorway_m: float = Field(
+        default=0.4, ge=0, description="narrower gaps are not doorways, metres"
+    )
 
 
 @dataclass(frozen=True, slots=True)

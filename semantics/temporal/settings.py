@@ -13,28 +13,28 @@ class LabellerSettings(Settings):
     """How neighbouring frames determine a frame's label."""
 
     method: str = Field(
-        "filter",
+        default="filter",
         description="filter (a hidden Markov model) or vote (majority of neighbouring frames, as "
         "in the paper)",
     )
     window: int = Field(
-        31,
+        default=31,
         ge=1,
         le=999,
         description="number of frames that vote on the one in the middle (paper: w); odd",
     )
     min_voters: int = Field(
-        5, ge=1, le=99,
+        default=5, ge=1, le=99,
         description="minimum number of observed frames that vote, the nearest first",
     )  # fmt: skip
     max_delay: int = Field(
-        90,
+        default=90,
         ge=0,
         le=9999,
         description="maximum number of frames before a label is given with the evidence so far",
     )
     change_m: float = Field(
-        4.0, gt=0, description="mean distance walked in one kind of place, metres (filter)"
+        default=4.0, gt=0, description="mean distance walked in one kind of place, metres (filter)"
     )
 
     @field_validator("method")

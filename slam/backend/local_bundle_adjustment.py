@@ -24,22 +24,28 @@ class LocalBundleAdjustmentSettings(Settings):
     """How many keyframes are adjusted together."""
 
     enabled: bool = Field(
-        True, description="adjust keyframes and landmarks together (local bundle adjustment)"
+        default=True,
+        description="adjust keyframes and landmarks together (local bundle adjustment)",
     )
     size: int = Field(
-        8, ge=2, le=50, description="maximum number of latest keyframes that are adjusted"
+        default=8, ge=2, le=50, description="maximum number of latest keyframes that are adjusted"
     )
     held: int = Field(
-        6, ge=1, le=50, description="maximum number of covisible older keyframes, held fixed"
+        default=6,
+        ge=1,
+        le=50,
+        description="maximum number of covisible older keyframes, held fixed",
     )
     landmarks: int = Field(
-        800,
+        default=800,
         ge=50,
         description="approximate number of landmarks adjusted; those seen by most keyframes are "
         "chosen",
     )
     min_shared: int = Field(
-        15, ge=6, description="minimum number of landmarks that a keyframe shares with the others"
+        default=15,
+        ge=6,
+        description="minimum number of landmarks that a keyframe shares with the others",
     )
 
 

@@ -22,41 +22,44 @@ FloatArray = NDArray[np.float64]
 class LoopSettings(Settings):
     """Selection and acceptance of loop candidates."""
 
-    enabled: bool = Field(True, description="search for loop closures")
+    enabled: bool = Field(default=True, description="search for loop closures")
     min_way_m: float = Field(
-        0.0,
+        default=0.0,
         ge=0,
         le=1000,
         description="minimum path length along constraints between two keyframes for a loop, "
         "metres",
     )
     candidates: int = Field(
-        2, ge=0, description="maximum number of candidates by appearance, for each keyframe"
+        default=2, ge=0, description="maximum number of candidates by appearance, for each keyframe"
     )
     neighbours: int = Field(
-        2, ge=0, description="maximum number of candidates by position, for each keyframe"
+        default=2, ge=0, description="maximum number of candidates by position, for each keyframe"
     )
     min_similarity: float = Field(
-        0.3,
+        default=0.3,
         ge=0,
         description="minimum similarity, as a share of that to the previous keyframe, for a "
         "keyframe to be tried",
     )
     max_distance_m: float = Field(
-        2.0, gt=0, description="maximum distance of a candidate by position, metres"
+        default=2.0, gt=0, description="maximum distance of a candidate by position, metres"
     )
     max_angle_deg: float = Field(
-        45.0,
+        default=45.0,
         gt=0,
         le=180,
         description="maximum angle between optical axes for a candidate by position, degrees",
     )
-    min_inliers: int = Field(30, ge=10, description="minimum number of inlier matches")
+    min_inliers: int = Field(default=30, ge=10, description="minimum number of inlier matches")
     min_agreement: float = Field(
-        0.7, ge=0, le=1, description="minimum share of points in both views whose depth agrees"
+        default=0.7,
+        ge=0,
+        le=1,
+        description="minimum share of points in both views whose depth agrees",
     )
     min_correlation: float = Field(
-        0.7,
+        default=0.7,
         ge=-1,
         le=1,
         description="minimum correlation of grey levels on the surface that both views show",

@@ -18,47 +18,50 @@ class LoopVerificationSettings(Settings):
     """Bounds on likely and on possible drift."""
 
     slack_m: float = Field(
-        0.1, gt=0, le=100, description="correction that is always accepted, metres"
+        default=0.1, gt=0, le=100, description="correction that is always accepted, metres"
     )
     slack_deg: float = Field(
-        3.0, gt=0, le=180, description="correction that is always accepted, degrees"
+        default=3.0, gt=0, le=180, description="correction that is always accepted, degrees"
     )
     drift_share: float = Field(
-        0.01,
+        default=0.01,
         gt=0,
         le=1,
         description="likely drift, as a share of the path length between the two keyframes",
     )
     drift_deg_per_m: float = Field(
-        0.2, gt=0, le=90, description="likely rotation drift for each metre of path, degrees"
+        default=0.2,
+        gt=0,
+        le=90,
+        description="likely rotation drift for each metre of path, degrees",
     )
     doubt: float = Field(
-        3.0,
+        default=3.0,
         ge=1,
         le=100,
         description="multiple of the likely drift that is still possible if other loops confirm it",
     )
     confirmations: int = Field(
-        2,
+        default=2,
         ge=0,
         le=20,
         description="number of other keyframes that must ask for the same correction",
     )
     join_way_m: float = Field(
-        1.0,
+        default=1.0,
         ge=0,
         le=100,
         description="distance over which loops must agree before they join two sub-maps, metres",
     )
     join_turn_deg: float = Field(
-        60.0,
+        default=60.0,
         ge=0,
         le=180,
         description="or minimum turn of both sub-maps' cameras, so that they see different "
         "things, degrees",
     )
     patience: int = Field(
-        30, ge=1, description="number of keyframes for which a loop waits for confirmation"
+        default=30, ge=1, description="number of keyframes for which a loop waits for confirmation"
     )
 
 

@@ -25,35 +25,38 @@ class PoseGraphSettings(Settings):
     """Weights of constraints between keyframes, and rejection of bad ones."""
 
     kernel: Literal["huber", "cauchy", "none"] = Field(
-        "huber", description="robust kernel of every constraint"
+        default="huber", description="robust kernel of every constraint"
     )
     kernel_width: float = Field(
-        3.0, gt=0, le=100, description="width of the robust kernel, standard deviations"
+        default=3.0, gt=0, le=100, description="width of the robust kernel, standard deviations"
     )
     sigma_rotation_rad: float = Field(
-        0.001,
+        default=0.001,
         gt=0,
         le=1,
         description="rotation error added to that estimated from a constraint's matches, radians",
     )
     sigma_translation_m: float = Field(
-        0.002,
+        default=0.002,
         gt=0,
         le=1,
         description="translation error added to that estimated from a constraint's matches, metres",
     )
     reject_width: float = Field(
-        10.0,
+        default=10.0,
         gt=0,
         le=1000,
         description="loops with a larger residual after optimisation are rejected, standard "
         "deviations",
     )
     iterations: int = Field(
-        10, ge=1, le=100, description="maximum number of solver iterations after a loop closure"
+        default=10,
+        ge=1,
+        le=100,
+        description="maximum number of solver iterations after a loop closure",
     )
     converged_m: float = Field(
-        1e-4,
+        default=1e-4,
         gt=0,
         le=0.1,
         description="the solver stops when no keyframe moves further than this, metres",

@@ -35,25 +35,30 @@ class CalibrationSettings(Settings):
     """How focal lengths are measured from the images, and when wrong ones are reported."""
 
     tolerance: float = Field(
-        0.07, gt=0, lt=1, description="largest focal length error that is not reported, as a share"
+        default=0.07,
+        gt=0,
+        lt=1,
+        description="largest focal length error that is not reported, as a share",
     )
     min_sigmas: float = Field(
-        5.0, ge=1, description="minimum focal length error to report, standard errors"
+        default=5.0, ge=1, description="minimum focal length error to report, standard errors"
     )
     min_pairs: int = Field(
-        4, ge=2, description="minimum number of frame pairs to measure focal lengths"
+        default=4, ge=2, description="minimum number of frame pairs to measure focal lengths"
     )
-    min_matches: int = Field(60, ge=20, description="minimum number of matches in a pair of frames")
-    features: int = Field(600, ge=50, description="number of features matched per frame")
+    min_matches: int = Field(
+        default=60, ge=20, description="minimum number of matches in a pair of frames"
+    )
+    features: int = Field(default=600, ge=50, description="number of features matched per frame")
     ratio: float = Field(
-        0.75,
+        default=0.75,
         gt=0,
         lt=1,
         description="maximum ratio of the nearest to the second nearest descriptor distance "
         "(ratio test)",
     )
     principal_share: float = Field(
-        0.02, gt=0, lt=0.5,
+        default=0.02, gt=0, lt=0.5,
         description="likely error of the principal point, as a share of the image's width",
     )  # fmt: skip
 

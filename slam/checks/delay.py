@@ -18,21 +18,21 @@ from roomgraph.slam.checks.statistics import gain_error
 class DelaySettings(Settings):
     """How a delay between depth and colour images is found."""
 
-    frames: int = Field(5, ge=1, le=30, description="longest delay searched, frames")
+    frames: int = Field(default=5, ge=1, le=30, description="longest delay searched, frames")
     min_outline: int = Field(
-        100, ge=10, description="minimum number of outline pixels for an image to count"
+        default=100, ge=10, description="minimum number of outline pixels for an image to count"
     )
     min_windows: int = Field(
-        5, ge=3, description="minimum number of windows of frames for a report"
+        default=5, ge=3, description="minimum number of windows of frames for a report"
     )
     min_pairs: int = Field(
-        2, ge=1, description="minimum number of image pairs in a window for each delay"
+        default=2, ge=1, description="minimum number of image pairs in a window for each delay"
     )
     min_score: float = Field(
-        0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
+        default=0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
     )
     min_gain: float = Field(
-        4.0, ge=2, description="minimum gain in fit over no delay, standard errors"
+        default=4.0, ge=2, description="minimum gain in fit over no delay, standard errors"
     )
 
 

@@ -24,13 +24,17 @@ class DepthScaleSettings(Settings):
     """
 
     near_m: float = Field(
-        0.25, gt=0, description="shortest distance that a sensor measures, metres"
+        default=0.25, gt=0, description="shortest distance that a sensor measures, metres"
     )
     far_m: float = Field(
-        10.0, gt=0, description="longest distance that is measured indoors, metres"
+        default=10.0, gt=0, description="longest distance that is measured indoors, metres"
     )
-    typical_min_m: float = Field(0.5, gt=0, description="smallest typical median depth, metres")
-    typical_max_m: float = Field(6.0, gt=0, description="largest typical median depth, metres")
+    typical_min_m: float = Field(
+        default=0.5, gt=0, description="smallest typical median depth, metres"
+    )
+    typical_max_m: float = Field(
+        default=6.0, gt=0, description="largest typical median depth, metres"
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,21 +15,24 @@ class IntrinsicsSettings(Settings):
     """When intrinsics are implausible for the size of the images."""
 
     near_middle: float = Field(
-        0.05, gt=0, lt=0.5,
+        default=0.05, gt=0, lt=0.5,
         description="a principal point is central within this share of the image's size",
     )  # fmt: skip
     off_middle: float = Field(
-        0.15,
+        default=0.15,
         gt=0,
         lt=0.5,
         description="a principal point further from the centre, as a share of the image's size, "
         "is implausible",
     )
     min_view_deg: float = Field(
-        20, gt=0, lt=180, description="narrowest plausible horizontal field of view, degrees"
+        default=20,
+        gt=0,
+        lt=180,
+        description="narrowest plausible horizontal field of view, degrees",
     )
     max_view_deg: float = Field(
-        140, gt=0, lt=180, description="widest plausible horizontal field of view, degrees"
+        default=140, gt=0, lt=180, description="widest plausible horizontal field of view, degrees"
     )
 
 

@@ -22,27 +22,30 @@ class RegistrationSettings(Settings):
     """How a misalignment of depth and colour images is found, and when it is reported."""
 
     reach: float = Field(
-        0.1, gt=0, le=0.3, description="largest shift searched, as a share of the image's width"
+        default=0.1,
+        gt=0,
+        le=0.3,
+        description="largest shift searched, as a share of the image's width",
     )
     scale_range: float = Field(
-        0.16, ge=0, le=0.4, description="largest change of scale searched, as a share"
+        default=0.16, ge=0, le=0.4, description="largest change of scale searched, as a share"
     )
     tolerance: float = Field(
-        0.015, gt=0, le=0.2,
+        default=0.015, gt=0, le=0.2,
         description="largest RMS displacement that is not reported, as a share of the image's "
         "width",
     )  # fmt: skip
     min_outline: int = Field(
-        100, ge=10, description="minimum number of outline pixels for a frame to count"
+        default=100, ge=10, description="minimum number of outline pixels for a frame to count"
     )
     min_windows: int = Field(
-        5, ge=4, description="minimum number of windows of frames for a report"
+        default=5, ge=4, description="minimum number of windows of frames for a report"
     )
     min_score: float = Field(
-        0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
+        default=0.3, gt=0, description="minimum mean strength of colour edges at depth outlines"
     )
     min_gain: float = Field(
-        3.0, ge=2, description="minimum gain in fit over no alignment, standard errors"
+        default=3.0, ge=2, description="minimum gain in fit over no alignment, standard errors"
     )
 
 

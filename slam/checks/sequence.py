@@ -40,16 +40,21 @@ THREADS = 4
 class CheckSettings(Settings):
     """The checks of a sequence before it is mapped."""
 
-    enabled: bool = Field(True, description="check the sequence before it is mapped, and warn")
+    enabled: bool = Field(
+        default=True, description="check the sequence before it is mapped, and warn"
+    )
     correct_camera: bool = Field(
-        True,
+        default=True,
         description="correct the camera where the images show how: align the depth images to the "
         "colour images, replace focal lengths that do not fit the images",
     )
     windows: int = Field(
-        10, ge=1, le=100, description="number of windows of successive frames that are checked"
+        default=10,
+        ge=1,
+        le=100,
+        description="number of windows of successive frames that are checked",
     )
-    window: int = Field(8, ge=1, le=100, description="number of frames in each window")
+    window: int = Field(default=8, ge=1, le=100, description="number of frames in each window")
     intrinsics: IntrinsicsSettings = IntrinsicsSettings()
     calibration: CalibrationSettings = CalibrationSettings()
     depth_scale: DepthScaleSettings = DepthScaleSettings()

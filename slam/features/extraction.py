@@ -20,26 +20,31 @@ class FeatureSettings(Settings):
     """What is detected, and how finely."""
 
     detector: Detector = Field(
-        "rootsift",
+        default="rootsift",
         description="sift, rootsift, orb, or surf (only in builds of OpenCV that have it)",
     )
     max_features: int = Field(
-        1000,
+        default=1000,
         ge=50,
         le=20000,
         description="maximum number of features per frame; the strongest are kept",
     )
     contrast_threshold: float = Field(
-        0.01, gt=0, le=0.2, description="SIFT's contrast threshold; higher keeps fewer features"
+        default=0.01,
+        gt=0,
+        le=0.2,
+        description="SIFT's contrast threshold; higher keeps fewer features",
     )
     working_width: int = Field(
-        320,
+        default=320,
         ge=80,
         description="wider images are halved before detection until they are no wider than this, "
         "pixels",
     )
     min_features: int = Field(
-        200, ge=0, description="with fewer features on the halved image, the full image is searched"
+        default=200,
+        ge=0,
+        description="with fewer features on the halved image, the full image is searched",
     )
 
 

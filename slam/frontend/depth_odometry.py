@@ -23,47 +23,52 @@ FloatArray = NDArray[np.float64]
 class DepthOdometrySettings(Settings):
     """When and how the camera is tracked by depth alone."""
 
-    enabled: bool = Field(True, description="track the camera by depth alone where features fail")
-    voxel_m: float = Field(0.10, gt=0, le=2, description="KISS-ICP's voxel size")
-    stride: int = Field(6, ge=1, le=64, description="every n-th pixel is used")
+    enabled: bool = Field(
+        default=True, description="track the camera by depth alone where features fail"
+    )
+    voxel_m: float = Field(default=0.10, gt=0, le=2, description="KISS-ICP's voxel size")
+    stride: int = Field(default=6, ge=1, le=64, description="every n-th pixel is used")
     min_overlap: float = Field(
-        0.5, gt=0, le=1, description="minimum share of points that lie on the previous surface"
+        default=0.5,
+        gt=0,
+        le=1,
+        description="minimum share of points that lie on the previous surface",
     )
     texture: int = Field(
-        100, ge=1, description="number of features with depth that makes a view textured"
+        default=100, ge=1, description="number of features with depth that makes a view textured"
     )
     min_overlap_textured: float = Field(
-        0.7,
+        default=0.7,
         gt=0,
         le=1,
         description="minimum overlap for a textured view of which no feature is recognised",
     )
     fit_m: float = Field(
-        0.08,
+        default=0.08,
         gt=0,
         le=1,
         description="maximum distance of a point from the surface it lies on, metres",
     )
     max_step_m: float = Field(
-        0.5,
+        default=0.5,
         gt=0,
         le=5,
         description="maximum motion between two frames; a longer one is rejected, metres",
     )
     keyframe_m: float = Field(
-        0.3,
+        default=0.3,
         gt=0,
         le=5,
         description="distance between keyframes when tracking by depth alone, metres",
     )
     sigma_rotation_rad: float = Field(
-        0.02,
+        default=0.02,
         gt=0,
         le=1,
         description="rotation error of a step where no surface constrains it, radians",
     )
     sigma_translation_m: float = Field(
-        0.03,
+        default=0.03,
         gt=0,
         le=1,
         description="translation error of a step where no surface constrains it, metres",

@@ -20,18 +20,23 @@ class DepthRefinementSettings(Settings):
     """When a feature-based pose is refined by depth."""
 
     enabled: bool = Field(
-        True, description="refine poses from few features by aligning depth surfaces"
+        default=True, description="refine poses from few features by aligning depth surfaces"
     )
     inliers: int = Field(
-        100, ge=0, description="poses with at least this many feature inliers are not refined"
+        default=100,
+        ge=0,
+        description="poses with at least this many feature inliers are not refined",
     )
     columns: int = Field(
-        80, ge=8, le=2000, description="number of columns of the depth image that are used"
+        default=80, ge=8, le=2000, description="number of columns of the depth image that are used"
     )
     max_surface_m: float = Field(
-        0.05, gt=0, le=1, description="maximum distance between paired surface points, metres"
+        default=0.05,
+        gt=0,
+        le=1,
+        description="maximum distance between paired surface points, metres",
     )
-    iterations: int = Field(4, ge=1, le=100, description="maximum number of iterations")
+    iterations: int = Field(default=4, ge=1, le=100, description="maximum number of iterations")
 
 
 class DepthRefiner:

@@ -19,46 +19,54 @@ class KeyframeSettings(Settings):
     """When a view becomes a keyframe."""
 
     min_overlap: float = Field(
-        0.75,
+        default=0.75,
         gt=0,
         le=1,
         description="a keyframe is added when a smaller share of the reference's points is in view",
     )
     min_explained: float = Field(
-        0.3,
+        default=0.3,
         gt=0,
         le=1,
         description="with a smaller share of features found in the local map, min_change applies",
     )
     min_followed: float = Field(
-        0.5,
+        default=0.5,
         gt=0,
         le=1,
         description="a keyframe is added when a smaller share of the template's corners is tracked",
     )
     min_change: float = Field(
-        0.25, ge=0, le=1,
+        default=0.25, ge=0, le=1,
         description="share of the usual change that makes a keyframe where few features are found"
         " in the local map",
     )  # fmt: skip
     max_baseline_share: float = Field(
-        0.15,
+        default=0.15,
         gt=0,
         le=2,
         description="maximum distance from the reference keyframe, as a share of the median depth",
     )
     max_angle_deg: float = Field(
-        20.0, gt=0, le=180, description="maximum rotation from the reference keyframe, degrees"
+        default=20.0,
+        gt=0,
+        le=180,
+        description="maximum rotation from the reference keyframe, degrees",
     )
     same_m: float = Field(
-        0.05,
+        default=0.05,
         gt=0,
         le=1,
         description="an old keyframe is reused if both poses agree within this distance, metres",
     )
-    same_deg: float = Field(2.0, gt=0, le=30, description="and within this rotation, degrees")
+    same_deg: float = Field(
+        default=2.0, gt=0, le=30, description="and within this rotation, degrees"
+    )
     neighbours: int = Field(
-        3, ge=0, le=50, description="number of keyframes tracked in addition to the reference"
+        default=3,
+        ge=0,
+        le=50,
+        description="number of keyframes tracked in addition to the reference",
     )
 
 

@@ -21,24 +21,32 @@ class PredictionSettings(Settings):
     """Assumptions on the motion of a handheld or robot-mounted camera."""
 
     enabled: bool = Field(
-        True,
+        default=True,
         description="use a constant-velocity model in directions that a view does not constrain",
     )
     acceleration_m_s2: float = Field(
-        5.0, gt=0, le=1000, description="typical acceleration of the camera, m/s²"
+        default=5.0, gt=0, le=1000, description="typical acceleration of the camera, m/s²"
     )
     acceleration_rad_s2: float = Field(
-        30.0, gt=0, le=10000, description="typical angular acceleration of the camera, rad/s²"
+        default=30.0,
+        gt=0,
+        le=10000,
+        description="typical angular acceleration of the camera, rad/s²",
     )
     memory: float = Field(
-        0.9,
+        default=0.9,
         ge=0,
         lt=1,
         description="weight of the past prediction errors when a new one is averaged in",
     )
-    caution: float = Field(3.0, ge=1, le=100, description="factor on the past prediction errors")
+    caution: float = Field(
+        default=3.0, ge=1, le=100, description="factor on the past prediction errors"
+    )
     longest: float = Field(
-        5.0, ge=1, le=100, description="maximum extrapolation, as a multiple of the last time step"
+        default=5.0,
+        ge=1,
+        le=100,
+        description="maximum extrapolation, as a multiple of the last time step",
     )
 
 

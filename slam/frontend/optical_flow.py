@@ -23,26 +23,35 @@ FloatArray = NDArray[np.float64]
 class FlowSettings(Settings):
     """How corners are chosen and tracked."""
 
-    enabled: bool = Field(True, description="track corners by optical flow between keyframes")
-    corners: int = Field(400, ge=20, le=5000, description="maximum number of corners tracked")
+    enabled: bool = Field(
+        default=True, description="track corners by optical flow between keyframes"
+    )
+    corners: int = Field(
+        default=400, ge=20, le=5000, description="maximum number of corners tracked"
+    )
     quality: float = Field(
-        0.005, gt=0, lt=1, description="minimum corner strength, as a share of the strongest"
+        default=0.005,
+        gt=0,
+        lt=1,
+        description="minimum corner strength, as a share of the strongest",
     )
     spacing_share: float = Field(
-        0.015,
+        default=0.015,
         gt=0,
         lt=1,
         description="minimum distance between corners, as a share of the image's width",
     )
-    window: int = Field(15, ge=5, le=101, description="side of the patch that is tracked, pixels")
+    window: int = Field(
+        default=15, ge=5, le=101, description="side of the patch that is tracked, pixels"
+    )
     levels: int = Field(
-        3, ge=0, le=6, description="number of times the image is halved for the pyramid"
+        default=3, ge=0, le=6, description="number of times the image is halved for the pyramid"
     )
     min_inliers: int = Field(
-        40, ge=6, description="with fewer inliers, features are matched instead"
+        default=40, ge=6, description="with fewer inliers, features are matched instead"
     )
     min_share: float = Field(
-        0.5, gt=0, le=1, description="minimum share of inliers among the corners in view"
+        default=0.5, gt=0, le=1, description="minimum share of inliers among the corners in view"
     )
 
 

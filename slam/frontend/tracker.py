@@ -23,33 +23,38 @@ class TrackerSettings(Settings):
     """How views are matched to a local map."""
 
     ratio: float = Field(
-        0.8,
+        default=0.8,
         gt=0,
         lt=1,
         description="maximum ratio of the nearest to the second nearest descriptor distance "
         "(ratio test)",
     )
     search_share: float = Field(
-        0.06,
+        default=0.06,
         gt=0,
         le=1,
         description="search radius around predicted positions, as a share of the image's width",
     )
     guided_inliers: int = Field(
-        40,
+        default=40,
         ge=6,
         description="with fewer inliers from guided matching, all features are matched again",
     )
     guided_share: float = Field(
-        0.5,
+        default=0.5,
         gt=0,
         le=1,
         description="minimum share of inliers among guided matches; below it, RANSAC estimates "
         "the pose",
     )
-    min_inliers: int = Field(15, ge=6, description="minimum number of inlier matches for a pose")
+    min_inliers: int = Field(
+        default=15, ge=6, description="minimum number of inlier matches for a pose"
+    )
     min_share: float = Field(
-        0.15, ge=0, le=1, description="minimum share of inliers among the matches for a pose"
+        default=0.15,
+        ge=0,
+        le=1,
+        description="minimum share of inliers among the matches for a pose",
     )
 
 

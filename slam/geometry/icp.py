@@ -23,25 +23,33 @@ class IcpSettings(Settings):
     """How planes are paired and aligned."""
 
     on: Literal["surface", "planes", "nothing"] = Field(
-        "surface",
+        default="surface",
         description="what two keyframes are aligned on: surface (all of it), planes, or nothing",
     )
     max_surface_m: float = Field(
-        0.05, gt=0, le=1, description="maximum distance between paired surface points, metres"
+        default=0.05,
+        gt=0,
+        le=1,
+        description="maximum distance between paired surface points, metres",
     )
     max_angle_deg: float = Field(
-        10.0, gt=0, le=90, description="maximum angle between the normals of paired planes, degrees"
+        default=10.0,
+        gt=0,
+        le=90,
+        description="maximum angle between the normals of paired planes, degrees",
     )
     max_distance_m: float = Field(
-        0.10,
+        default=0.10,
         gt=0,
         le=1,
         description="maximum distance between paired points of planes (paper: th_max), metres",
     )
-    points_per_plane: int = Field(300, ge=20, description="number of points used of each plane")
-    iterations: int = Field(8, ge=1, le=100, description="maximum number of iterations")
+    points_per_plane: int = Field(
+        default=300, ge=20, description="number of points used of each plane"
+    )
+    iterations: int = Field(default=8, ge=1, le=100, description="maximum number of iterations")
     sigma_correlated_m: float = Field(
-        0.01, gt=0, le=0.1, description="error that all readings of one plane share, metres"
+        default=0.01, gt=0, le=0.1, description="error that all readings of one plane share, metres"
     )
 
 

@@ -22,17 +22,19 @@ Method = Literal["pnp", "procrustes"]
 class MotionSettings(Settings):
     """How the coarse motion is found."""
 
-    method: Method = Field("pnp", description="pnp (3-D to 2-D) or procrustes (3-D to 3-D)")
+    method: Method = Field(default="pnp", description="pnp (3-D to 2-D) or procrustes (3-D to 3-D)")
     iterations: int = Field(
-        300, ge=10, le=100_000, description="maximum number of RANSAC hypotheses"
+        default=300, ge=10, le=100_000, description="maximum number of RANSAC hypotheses"
     )
     pixel_threshold: float = Field(
-        3.0, gt=0, le=50, description="maximum reprojection error of an inlier, pixels"
+        default=3.0, gt=0, le=50, description="maximum reprojection error of an inlier, pixels"
     )
     sigma_threshold: float = Field(
-        3.0, gt=0, le=20, description="maximum 3-D error of an inlier, standard deviations"
+        default=3.0, gt=0, le=20, description="maximum 3-D error of an inlier, standard deviations"
     )
-    min_inliers: int = Field(15, ge=6, description="minimum number of inlier matches for a motion")
+    min_inliers: int = Field(
+        default=15, ge=6, description="minimum number of inlier matches for a motion"
+    )
 
 
 @dataclass(frozen=True, slots=True)

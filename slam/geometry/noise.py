@@ -16,12 +16,14 @@ class SensorNoise(Settings):
     defaults are of the size that Nguyen et al. (2012) measured for the Kinect.
     """
 
-    pixel: float = Field(1.0, gt=0, le=10, description="error of a feature's position, pixels")
+    pixel: float = Field(
+        default=1.0, gt=0, le=10, description="error of a feature's position, pixels"
+    )
     depth_floor_m: float = Field(
-        0.003, gt=0, le=0.1, description="depth error at short range, metres"
+        default=0.003, gt=0, le=0.1, description="depth error at short range, metres"
     )
     depth_quadratic: float = Field(
-        0.0025,
+        default=0.0025,
         ge=0,
         le=0.1,
         description="depth error in metres added per square metre of depth (it grows with the "

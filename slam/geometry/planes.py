@@ -18,29 +18,29 @@ class PlaneSettings(Settings):
     """What counts as a plane."""
 
     enabled: bool = Field(
-        True, description="extract planes, for the floor and for motion from depth alone"
+        default=True, description="extract planes, for the floor and for motion from depth alone"
     )
-    max_planes: int = Field(5, ge=1, le=50, description="maximum number of planes per view")
+    max_planes: int = Field(default=5, ge=1, le=50, description="maximum number of planes per view")
     min_share: float = Field(
-        0.06, gt=0, le=1, description="minimum share of a view's points for a plane"
+        default=0.06, gt=0, le=1, description="minimum share of a view's points for a plane"
     )
     iterations: int = Field(
-        128, ge=8, le=10_000, description="number of RANSAC hypotheses per plane"
+        default=128, ge=8, le=10_000, description="number of RANSAC hypotheses per plane"
     )
     sigma_threshold: float = Field(
-        2.0,
+        default=2.0,
         gt=0,
         le=20,
         description="maximum distance of a point from its plane, standard deviations",
     )
     flatness: float = Field(
-        0.45,
+        default=0.45,
         gt=0,
         le=1,
         description="maximum RMS distance of a plane's points, as a share of the threshold above",
     )
     points: int = Field(
-        4000, ge=200, description="maximum number of points of a view that are searched"
+        default=4000, ge=200, description="maximum number of points of a view that are searched"
     )
 
 

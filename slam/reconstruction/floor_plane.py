@@ -27,30 +27,33 @@ class FloorPlaneSettings(Settings):
     """How the vertical and the floor are found."""
 
     max_tilt_deg: float = Field(
-        50.0,
+        default=50.0,
         gt=0,
         le=90,
         description="maximum tilt of the camera from upright, averaged over the run, degrees",
     )
     tolerance_deg: float = Field(
-        5.0,
+        default=5.0,
         gt=0,
         le=20,
         description="maximum tilt of a plane that counts as horizontal or vertical, degrees",
     )
     min_drop_m: float = Field(
-        0.3,
+        default=0.3,
         ge=0,
         description="minimum distance of the floor below the camera's usual height, metres",
     )
     layer_m: float = Field(
-        0.1,
+        default=0.1,
         gt=0,
         le=0.5,
         description="horizontal planes within this height form one surface, metres",
     )
     max_below: float = Field(
-        0.03, ge=0, le=0.5, description="maximum share of the observed points below the floor"
+        default=0.03,
+        ge=0,
+        le=0.5,
+        description="maximum share of the observed points below the floor",
     )
 
 

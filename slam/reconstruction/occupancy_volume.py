@@ -22,25 +22,27 @@ FloatArray = NDArray[np.float64]
 class OccupancyVolumeSettings(Settings):
     """Resolution of the occupancy volume, and height of obstacles."""
 
-    cell_m: float = Field(0.05, ge=0.01, le=1, description="side of a cell, metres")
+    cell_m: float = Field(default=0.05, ge=0.01, le=1, description="side of a cell, metres")
     max_cells: int = Field(
-        4_000_000,
+        default=4_000_000,
         ge=10_000,
         description="maximum number of cells of the grid; larger maps get larger cells",
     )
     min_height_m: float = Field(
-        0.1, ge=0, le=1, description="lower things belong to the floor, metres"
+        default=0.1, ge=0, le=1, description="lower things belong to the floor, metres"
     )
     max_height_m: float = Field(
-        1.8, gt=0, le=4, description="higher things are no obstacles, metres"
+        default=1.8, gt=0, le=4, description="higher things are no obstacles, metres"
     )
     layer_m: float = Field(
-        0.25, ge=0.05, le=1, description="approximate height of a layer of cells, metres"
+        default=0.25, ge=0.05, le=1, description="approximate height of a layer of cells, metres"
     )
     ceiling_m: float = Field(
-        3.0, gt=0, le=10, description="height above which nothing is examined, metres"
+        default=3.0, gt=0, le=10, description="height above which nothing is examined, metres"
     )
-    ray_every: int = Field(8, ge=1, le=256, description="every n-th ray of a keyframe is used")
+    ray_every: int = Field(
+        default=8, ge=1, le=256, description="every n-th ray of a keyframe is used"
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,26 +26,31 @@ class MapSettings(Settings):
     """How dense the map is."""
 
     voxel_m: float = Field(
-        0.02, gt=0, le=1, description="side of a voxel, which holds one point, metres"
+        default=0.02, gt=0, le=1, description="side of a voxel, which holds one point, metres"
     )
-    stride: int = Field(4, ge=1, le=64, description="every n-th pixel of a keyframe is mapped")
+    stride: int = Field(
+        default=4, ge=1, le=64, description="every n-th pixel of a keyframe is mapped"
+    )
     max_depth_m: float = Field(
-        4.0, gt=0, le=65, description="readings beyond are not mapped, metres"
+        default=4.0, gt=0, le=65, description="readings beyond are not mapped, metres"
     )
     remove_dynamic: bool = Field(
-        True, description="remove dynamic points: those that later keyframes see through"
+        default=True, description="remove dynamic points: those that later keyframes see through"
     )
     sketch_voxels: float = Field(
-        2.5, ge=1, le=50, description="voxel size of the online map, as a multiple of voxel_m"
+        default=2.5,
+        ge=1,
+        le=50,
+        description="voxel size of the online map, as a multiple of voxel_m",
     )
     sketch_every: int = Field(
-        2, ge=1, le=16, description="every n-th keyframe is used for the online map"
+        default=2, ge=1, le=16, description="every n-th keyframe is used for the online map"
     )
     sketch_step: int = Field(
-        2, ge=1, le=16, description="every n-th mapped pixel is used for the online map"
+        default=2, ge=1, le=16, description="every n-th mapped pixel is used for the online map"
     )
     sketch_slack: float = Field(
-        0.5, ge=0, le=10,
+        default=0.5, ge=0, le=10,
         description="a keyframe that moves by this many voxels of the online map is fused again",
     )  # fmt: skip
 

@@ -27,14 +27,21 @@ class RelocaliserSettings(Settings):
     """Selection and acceptance of keyframes."""
 
     candidates: int = Field(
-        6, ge=1, le=100, description="maximum number of keyframes tried, the most similar first"
+        default=6,
+        ge=1,
+        le=100,
+        description="maximum number of keyframes tried, the most similar first",
     )
     neighbours: int = Field(
-        3, ge=0, le=50, description="number of neighbouring keyframes added to a candidate"
+        default=3, ge=0, le=50, description="number of neighbouring keyframes added to a candidate"
     )
-    min_inliers: int = Field(30, ge=6, description="minimum number of inlier matches for a pose")
+    min_inliers: int = Field(
+        default=30, ge=6, description="minimum number of inlier matches for a pose"
+    )
     enough_inliers: int = Field(
-        120, ge=6, description="number of inlier matches after which no other candidate is tried"
+        default=120,
+        ge=6,
+        description="number of inlier matches after which no other candidate is tried",
     )
 
 

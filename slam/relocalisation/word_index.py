@@ -17,15 +17,15 @@ from roomgraph.slam.features.matching import squared_distances
 class WordIndexSettings(Settings):
     """How visual words are built from descriptors."""
 
-    max_words: int = Field(4096, ge=16, description="maximum number of visual words")
+    max_words: int = Field(default=4096, ge=16, description="maximum number of visual words")
     radius: float = Field(
-        0.55,
+        default=0.55,
         gt=0,
         le=2,
         description="a descriptor further than this from all words becomes a new word, as a share"
         " of its norm",
     )
-    features: int = Field(300, ge=20, description="number of features indexed per keyframe")
+    features: int = Field(default=300, ge=20, description="number of features indexed per keyframe")
 
 
 class WordIndex:
