@@ -32,6 +32,7 @@ class Terminal:
 
     def __init__(self, quiet: bool = False, verbose: bool = False) -> None:
         self.console = Console(quiet=quiet, highlight=False)
+        self._errors = Console(quiet=quiet, highlight=False, stderr=True)
         self.verbose = verbose
 
     def say(self, text: RenderableType, dim: bool = False) -> None:
@@ -42,11 +43,15 @@ class Terminal:
         """Print a warning."""
         self.console.print(Text(f"warning: {text}", style="yellow"), soft_wrap=True)
 
+    def _note(self, text: str) -> None:
+        """Print a line on standard error."""
+        self._errors.print(text, markup=False, soft_wrap=True)
+
     @contextmanager
     def working(self, text: str) -> Iterator[None]:
         """Show a message while the block runs, for work that cannot be counted."""
         if not self.console.is_terminal:
-            self.say(text)
+            self._note(text)
         with self.console.status(escape(text)):
             yield
 
@@ -54,10 +59,11 @@ class Terminal:
     def progress(self, title: str, unit: str = "") -> Iterator[Advance]:
         """Show a bar while the block runs; call the result with done, total and a remark.
 
-        Where the output is no terminal, a line is printed now and then, which counts in `unit`.
+        Where the output is no terminal, a line is printed now and then, which counts in `unit`, on
+        standard error: what a command is asked for stays alone on standard output.
         """
         if not self.console.is_terminal:
-            lines = _ProgressLines(title, unit, self.say)
+            lines = _ProgressLines(title, unit, self._note)
             yield lines.advance
             lines.end()
             return

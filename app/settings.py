@@ -146,7 +146,7 @@ def load_settings(
             ) from error  # fmt: skip
         raise AppError(
             f"invalid value of setting {name}", where=path or "command line",
-            expected=first["msg"].removeprefix("Input should be "),
+            expected=first["msg"].removeprefix("Value error, ").removeprefix("Input should be "),
             got=repr(first.get("input"))[:80], hint=hint,
         ) from error  # fmt: skip
 
@@ -172,7 +172,7 @@ def write_settings(path: Path, settings: AppSettings) -> None:
 
 def to_toml(settings: AppSettings) -> str:
     """Return settings as TOML that `load_settings` reads."""
-    return tomli_w.dumps(settings.model_dump(mode="json", exclude_none=True))
+    return tomli_w.dumps(_without_empty(settings.model_dump(mode="json", exclude_none=True)))
 
 
 def to_commented_toml(settings: AppSettings) -> str:
@@ -184,7 +184,7 @@ def to_commented_toml(settings: AppSettings) -> str:
 
 def _comment(lines: list[str], settings: Settings, table: str) -> None:
     """Write a settings model's own values, then its parts as tables."""
-    values = settings.model_dump(mode="json", exclude_none=True)
+    values = _without_empty(settings.model_dump(mode="json", exclude_none=True))
     parts = {n: v for n in values if isinstance(v := getattr(settings, n), Settings)}
     for name, field in type(settings).model_fields.items():
         if name in values and name not in parts:
@@ -194,6 +194,12 @@ def _comment(lines: list[str], settings: Settings, table: str) -> None:
         inner = f"{table}.{name}" if table else name
         lines += ["", f"[{inner}]"]
         _comment(lines, part, inner)
+
+
+def _without_empty(values: dict[str, Any]) -> dict[str, Any]:
+    """Return values without tables that hold nothing: parts that have no settings."""
+    kept = {n: _without_empty(v) if isinstance(v, dict) else v for n, v in values.items()}
+    return {name: value for name, value in kept.items() if value != {}}
 
 
 def _chosen(values: dict[str, Any], names: Collection[str]) -> dict[str, Any]:

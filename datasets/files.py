@@ -32,6 +32,11 @@ def write_text(path: Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
+def is_working_folder(path: Path) -> bool:
+    """Whether a path is the folder that the process works in: it cannot be replaced."""
+    return path.resolve() == Path.cwd()
+
+
 def replace_folder(fresh: Path, path: Path) -> None:
     """Replace `path`, if it exists, by the finished folder `fresh`.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets.camera import Camera
 from roomgraph.datasets.frame import Frame
-from roomgraph.datasets.sequence import Selection, Sequence
+from roomgraph.datasets.sequence import Selection, Sequence, frames_of
 from roomgraph.datasets.trajectory import Trajectory
 
 # A true pose this near in time is a frame's own (as where trajectories are compared).
@@ -56,6 +57,9 @@ class PingPongReplay:
 
     def __getitem__(self, index: int) -> Frame:
         return replace(self._frames[index], stamp_s=float(self._stamps_s[index]))
+
+    def __iter__(self) -> Iterator[Frame]:
+        return frames_of(self)
 
     def with_camera(self, camera: Camera) -> PingPongReplay:
         """Return the same laps, taken by another camera."""

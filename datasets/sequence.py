@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -60,9 +61,12 @@ class Sequence(Protocol):
     def __getitem__(self, index: int) -> Frame:
         """Read frame `index`; raises DatasetError if one of its images cannot be read.
 
-        Beyond the last frame it raises IndexError, so that a sequence can be looped over. Several
-        threads may read at once.
+        Several threads may read at once.
         """
+        ...
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Read all frames, in order."""
         ...
 
     def with_camera(self, camera: Camera) -> Sequence:
@@ -99,6 +103,9 @@ class Selection:
         frame = self.source[self.indices[index]]
         return Frame(index, frame.stamp_s, frame.colour, frame.depth, frame.intrinsics)
 
+    def __iter__(self) -> Iterator[Frame]:
+        return frames_of(self)
+
     def with_camera(self, camera: Camera) -> Selection:
         """Return the same part, taken by another camera."""
         return replace(self, source=self.source.with_camera(camera), camera=camera)
@@ -130,3 +137,8 @@ def select(
         sequence, indices, name=sequence.name, root=sequence.root, camera=sequence.camera,
         ground_truth=sequence.ground_truth, places=sequence.places, notes=sequence.notes,
     )  # fmt: skip
+
+
+def frames_of(sequence: Sequence) -> Iterator[Frame]:
+    """Yield all frames in order: what a sequence's ``__iter__`` returns."""
+    return (sequence[index] for index in range(len(sequence)))

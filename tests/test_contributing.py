@@ -57,9 +57,9 @@ def test_train_run_and_eval_use_a_descriptor_of_one_file_and_one_line(
     with (run / "frames.csv").open() as file:
         labels = [row["label"] for row in csv.DictReader(file)]
     assert len(set(labels)) > 1
-    assert "labels right" in command(extended, "eval", run)
+    assert "correct labels" in command(extended, "eval", run)
     arguments = ("--data", rendered_walk, "--descriptor", "mean_colour", "-o", tmp_path)
     command(extended, "eval", "--protocol", "recognition", *arguments)
     content = json.loads((tmp_path / "recognition.json").read_text())
-    assert content["recipe"] == "preset best, descriptor mean_colour"
+    assert content["recipe"] == "mean_colour, linear_svm"
     assert content["accuracy_mean"] > 1 / 3

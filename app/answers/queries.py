@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roomgraph.app.errors import AppError
 from roomgraph.app.storage.input import InputOptions
@@ -79,7 +80,7 @@ def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Ite
     """Yield images with time stamps as if taken at 30 per second."""
     for index, path in enumerate(files):
         colour = read_colour(path)
-        fitted = _fitted(camera, colour.shape[1], colour.shape[0], path)
+        fitted = fitted_camera(camera, colour, path)
         if depth is not None:
             readings = read_depth(depth, camera.depth_scale)
         else:
@@ -89,13 +90,24 @@ def _image_queries(files: list[Path], depth: Path | None, camera: Camera) -> Ite
         yield Query(str(path), Frame(index, index / _FRAME_RATE_HZ, colour, readings, pinhole))
 
 
-def _fitted(camera: Camera, width: int, height: int, path: Path) -> Camera:
-    """Return a camera for images of another size but the same aspect ratio."""
+def fitted_camera(camera: Camera, colour: NDArray[np.uint8], where: str | Path) -> Camera:
+    """Return a camera for an image (H, W, 3) of another size but the same aspect ratio.
+
+    Raises
+    ------
+    AppError
+        The image has another aspect ratio, or is no colour image.
+    """
+    if colour.ndim != 3 or colour.shape[2] != 3:
+        raise AppError(
+            "not a colour image", where=where, expected="(H, W, 3) RGB", got=str(colour.shape)
+        )
+    height, width = colour.shape[:2]
     known = camera.intrinsics
     scale = width / known.width
     if abs(known.height * scale - height) > 1:
         raise AppError(
-            "aspect ratio of the image differs from the camera's", where=path,
+            "aspect ratio of the image differs from the camera's", where=where,
             expected=f"{known.width}x{known.height} or a multiple of it", got=f"{width}x{height}",
             hint="give the camera that took it: --camera FILE.json",
         )  # fmt: skip

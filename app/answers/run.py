@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.app.answers.queries import fitted_camera
 from roomgraph.app.storage.cloud import read_cloud, read_normals
 from roomgraph.app.storage.occupancy import read_occupancy
 from roomgraph.app.storage.run_folder import RunFolder
@@ -129,11 +130,15 @@ class Run:
             The image, RGB, without distortion.
         depth_m : (H, W) float32, optional
             Its depth, metres, 0 where there is no reading.
+
+        Raises
+        ------
+        AppError
+            The image is no colour image of the camera's aspect ratio.
         """
-        height, width = colour.shape[:2]
-        depth = np.zeros((height, width), np.float32) if depth_m is None else depth_m
-        intrinsics = self._locator.camera.intrinsics.resized(width, height)
-        return self._locator.locate(Frame(0, 0.0, colour, depth, intrinsics))
+        camera = fitted_camera(self._locator.camera, colour, "image")
+        depth = np.zeros(colour.shape[:2], np.float32) if depth_m is None else depth_m
+        return self._locator.locate(Frame(0, 0.0, colour, depth, camera.intrinsics))
 
     @cached_property
     def _locator(self) -> Locator:

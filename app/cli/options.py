@@ -100,11 +100,11 @@ PresetOption = Annotated[
 ]
 DescriptorOption = Annotated[
     str | None,
-    typer.Option("--descriptor", metavar="NAME", help="Image descriptor: fisher or words."),
+    typer.Option("--descriptor", metavar="NAME", help="Image descriptor; see `roomgraph config`."),
 ]
 ClassifierOption = Annotated[
     str | None,
-    typer.Option("--classifier", metavar="NAME", help="Classifier: linear_svm."),
+    typer.Option("--classifier", metavar="NAME", help="Classifier; see `roomgraph config`."),
 ]
 SeedOption = Annotated[
     int | None,
@@ -151,6 +151,26 @@ class SettingFlags:
         from roomgraph.app.settings import load_settings
 
         return load_settings(self.config, {"seed": self.seed, "slam.max_depth_m": self.max_depth})
+
+
+def refuse_unused(where: str, **flags: object) -> None:
+    """Raise where flags were given that this way of using a command does not look at.
+
+    Parameters
+    ----------
+    where : str
+        When they count: ``with --protocol``.
+    flags : object
+        By name; None where they were not given.
+    """
+    from roomgraph.app.errors import AppError
+
+    given = [f"--{name.replace('_', '-')}" for name, value in flags.items() if value is not None]
+    if given:
+        raise AppError(
+            "option has no effect here", where=", ".join(given), expected=f"it only {where}",
+            hint="leave it out",
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,7 +70,7 @@ def run_protocol(
     else:
         stride = LIGHT_STRIDE if name == "light" else STRIDE
         report = PROTOCOLS[name](gather(settings, data, terminal, seeds, stride))
-    return replace(report, name=name, recipe=str(recipe))
+    return replace(report, name=name, training=settings.semantics.training)
 
 
 def _recognition(m: Material) -> ProtocolReport:

@@ -21,6 +21,7 @@ from roomgraph.semantics.evaluation.calibration import (
 )
 from roomgraph.semantics.evaluation.open_set import OpenSetEvaluation
 from roomgraph.semantics.evaluation.splits import SplitResult, per_class
+from roomgraph.semantics.recognition.settings import TrainingSettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,8 +42,10 @@ class ProtocolReport:
         Probabilities for buildings never seen.
     figures : mapping
         Further numbers by name.
-    name, recipe : str
-        The experiment, and what the place models were made of.
+    name : str
+        The experiment.
+    training : TrainingSettings
+        What the place models were made of.
     """
 
     data: tuple[str, ...]
@@ -52,7 +55,7 @@ class ProtocolReport:
     open_set: OpenSetEvaluation | None = None
     figures: dict[str, Any] = field(default_factory=dict)
     name: str = ""
-    recipe: str = ""
+    training: TrainingSettings = field(default_factory=TrainingSettings)
 
     @property
     def counted(self) -> list[SplitResult]:
@@ -74,7 +77,8 @@ class ProtocolReport:
         content: dict[str, Any] = {
             "schema": "roomgraph/protocol/1",
             "protocol": self.name,
-            "recipe": self.recipe,
+            "recipe": f"{self.training.descriptor}, {self.training.classifier}",
+            "training": self.training.model_dump(mode="json"),
             "data": list(self.data),
             "accuracy_mean": rounded(np.mean(accuracies)),
             "accuracy_std": rounded(np.std(accuracies)),

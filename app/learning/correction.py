@@ -40,15 +40,15 @@ def parse_changes(texts: Sequence[str]) -> dict[str, str]:
     return changes
 
 
-def correct_run(folder: RunFolder, changes: Mapping[str, str]) -> list[Correction]:
-    """Rename places of a run and write its graph and labels again.
+def corrections_of(folder: RunFolder, changes: Mapping[str, str]) -> list[Correction]:
+    """Return what renaming places of a run does to its graph, one after the other.
 
-    The cloud and the table of frames stay as they were recorded.
+    Nothing is written.
 
     Raises
     ------
     AppError, SemanticsError
-        The folder is no run's, or its graph has no such place. Nothing is written then.
+        The folder is no run's, or its graph has no such place.
     """
     graph = read_graph_json(folder.existing(folder.graph_json))
     settings = load_settings(folder.existing(folder.config), only=["semantics.labeller"])
@@ -57,10 +57,17 @@ def correct_run(folder: RunFolder, changes: Mapping[str, str]) -> list[Correctio
         correction = correct(graph, place, label, settings.semantics.labeller.change_m)
         corrections.append(correction)
         graph = correction.graph
+    return corrections
+
+
+def write_corrected(folder: RunFolder, graph: SemanticGraph) -> None:
+    """Write a run's graph and labels again.
+
+    The cloud and the table of frames stay as they were recorded.
+    """
     write_graph_json(folder.graph_json, graph)
     write_graphml(folder.graphml, graph)
     write_labels(folder.labels, graph.labels)
-    return corrections
 
 
 def learn_from_run(

@@ -16,7 +16,9 @@ from roomgraph.semantics.descriptors.registry import DESCRIPTORS
 from roomgraph.semantics.recognition.examples import Example, folder_examples, sequence_examples
 from roomgraph.semantics.recognition.model import PlaceModel
 from roomgraph.semantics.recognition.presets import PRESETS
+from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.semantics.recognition.training import train
+from roomgraph.slam.features.extraction import FeatureSettings
 
 
 def labelled_examples(root: Path) -> list[Example]:
@@ -44,18 +46,14 @@ class Recipe:
     descriptor: str | None = None
     classifier: str | None = None
 
-    def __str__(self) -> str:
-        parts = [f"preset {self.preset or 'best'}"]
-        parts += [f"descriptor {self.descriptor}"] if self.descriptor else []
-        return ", ".join(parts + ([f"classifier {self.classifier}"] if self.classifier else []))
-
     def applied(self, settings: AppSettings) -> AppSettings:
         """Return settings with the training and feature settings of these names.
 
         Raises
         ------
         AppError
-            There is no preset, descriptor or classifier of that name.
+            There is no preset, descriptor or classifier of that name, or the settings say
+            otherwise than by default what a preset says.
         """
         chosen = {"descriptor": self.descriptor, "classifier": self.classifier}
         _check("preset", self.preset, PRESETS)
@@ -63,6 +61,11 @@ class Recipe:
         _check("classifier", self.classifier, CLASSIFIERS)
         slam, training = settings.slam, settings.semantics.training
         if self.preset is not None:
+            if (training, slam.features) != (TrainingSettings(), FeatureSettings()):
+                raise AppError(
+                    "the settings file says how places are learned, and so does the preset",
+                    where=f"--preset {self.preset}", hint="leave one of them out",
+                )  # fmt: skip
             preset = PRESETS[self.preset]
             slam, training = slam.model_copy(update={"features": preset.features}), preset.training
         named = {name: value for name, value in chosen.items() if value is not None}

@@ -13,6 +13,7 @@ from typing import Any
 from roomgraph.app.errors import AppError
 from roomgraph.app.storage.input import InputOptions, read_input
 from roomgraph.datasets.camera import Camera
+from roomgraph.datasets.files import is_working_folder
 from roomgraph.datasets.trajectory import Trajectory, read_tum
 
 # Only a folder that holds all of these is a run, and may be overwritten; they are written first.
@@ -207,7 +208,19 @@ def make_run_folder(output: Path | None, name: str, overwrite: bool) -> RunFolde
 
 
 def clear_output(output: Path, overwrite: bool, marks: tuple[str, ...]) -> None:
-    """Clear an output folder; only a folder with all files in `marks` is ever removed."""
+    """Clear an output folder; only a folder with all files in `marks` is ever removed.
+
+    Raises
+    ------
+    AppError
+        The folder is there already and `overwrite` is not given, it holds something else, or it is
+        the working folder.
+    """
+    if is_working_folder(output):
+        raise AppError(
+            "the working folder cannot be replaced", where=output, expected="a folder of its own",
+            hint="choose another with -o",
+        )  # fmt: skip
     if not output.exists() or (output.is_dir() and not any(output.iterdir())):
         if output.exists():
             output.rmdir()

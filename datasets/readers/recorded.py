@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.places import PlaceTruth, read_places
 from roomgraph.datasets.readers.images import check_size, read_colour, read_depth
 from roomgraph.datasets.readers.registration import rectify
+from roomgraph.datasets.sequence import frames_of
 from roomgraph.datasets.trajectory import Trajectory, read_tum
 
 
@@ -55,6 +57,9 @@ class RecordedSequence:
         check_size(colour, self.camera.intrinsics, self.colour_files[index])
         colour, depth, pinhole = rectify(colour, depth, self.camera, self.depth_files[index])
         return Frame(index, float(self.stamps[index]), colour, depth, pinhole)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return frames_of(self)
 
     def with_camera(self, camera: Camera) -> RecordedSequence:
         """Return the same files, taken by another camera."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any, ClassVar, Self
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 Machine = dict[str, FloatArray]
 
 
-class CalibratedClassifier(Estimator):
+class CalibratedClassifier(Estimator, ABC):
     """A machine that decides, and the probabilities of its decisions (see `PlaceClassifier`).
 
     A subclass says how the machine is learned (`_learn`), how it decides (`_decide`), and the

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -81,6 +82,7 @@ class ImageDescriptor(Protocol):
         self.features = (features or FeatureSettings()) if self.uses_features else None
 
     @property
+    @abstractmethod
     def length(self) -> int:
         """Numbers D of a vector."""
         ...
@@ -94,6 +96,7 @@ class ImageDescriptor(Protocol):
         """Whether the image has what this descriptor needs."""
         return colour is not None
 
+    @abstractmethod
     def prepare(
         self, colour: Image | None, features: Features | None = None, to_fit: bool = False
     ) -> Any:
@@ -123,6 +126,13 @@ class ImageDescriptor(Protocol):
         By default what `prepare` returns is the vector.
         """
         return Description.of(prepared)
+
+    def view(self, description: Description) -> NDArray[np.float64]:
+        """Return what change from image to image is measured by, of unit length (or zeros).
+
+        By default the vector that a classifier sees.
+        """
+        return unit(description.vector)
 
     def words(self, shares: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """Return the contributions (D,) of a vector's numbers to a decision, by visual word.

@@ -24,6 +24,8 @@ from roomgraph.slam.features.extraction import FeatureExtractor, Features, Featu
 
 Vectors = NDArray[np.float32]
 
+_THREAD = threading.local()
+
 
 class WordsSettings(Settings):
     """Number of visual words, and their training."""
@@ -65,7 +67,6 @@ class WordsDescriptor(ImageDescriptor):
         self, settings: Settings | None = None, features: FeatureSettings | None = None
     ) -> None:
         super().__init__(settings, features)
-        self._local = threading.local()
         self._summary: dict[str, Any] = {}
 
     @property
@@ -82,7 +83,7 @@ class WordsDescriptor(ImageDescriptor):
     ) -> Vectors | None:
         """Return the local descriptors (N, D) float32, None if they are too few."""
         if features is None and colour is not None:
-            features = self._extractor.extract_image(colour)
+            features = _extractor(self.features or FeatureSettings()).extract_image(colour)
         if features is None or len(features) < self.settings.min_features:
             return None
         return as_vectors(features.descriptors)
@@ -102,6 +103,10 @@ class WordsDescriptor(ImageDescriptor):
         """Return the histogram as the settings normalise it, and at unit length."""
         counts = self._counts(prepared)
         return Description(normalise(counts, self.settings.normalisation), normalise(counts, "l2"))
+
+    def view(self, description: Description) -> NDArray[np.float64]:
+        """Return the counts at unit length, however the classifier's histogram is normalised."""
+        return description.signature
 
     def words(self, shares: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the shares as they are: each number is a word's."""
@@ -123,14 +128,6 @@ class WordsDescriptor(ImageDescriptor):
         self.bag_ = BagOfFeatures(NeuralGas.from_prototypes(prototypes))
         return self
 
-    @property
-    def _extractor(self) -> FeatureExtractor:
-        """The extractor of this thread: OpenCV's detectors are not made to be shared."""
-        if not hasattr(self._local, "extractor"):
-            self._local.extractor = FeatureExtractor(self.features or FeatureSettings())
-        extractor: FeatureExtractor = self._local.extractor
-        return extractor
-
     def _counts(self, descriptors: Vectors) -> NDArray[np.float64]:
         try:
             return self.bag_.counts(descriptors)
@@ -141,6 +138,15 @@ class WordsDescriptor(ImageDescriptor):
                 got=str(error),
                 hint="use the feature settings that the model was trained with",
             ) from error  # fmt: skip
+
+
+def _extractor(settings: FeatureSettings) -> FeatureExtractor:
+    """Return the extractor of this thread: OpenCV's detectors are not made to be shared."""
+    extractors: dict[FeatureSettings, FeatureExtractor]
+    extractors = _THREAD.__dict__.setdefault("extractors", {})
+    if settings not in extractors:
+        extractors[settings] = FeatureExtractor(settings)
+    return extractors[settings]
 
 
 def sample_of(descriptors: Sequence[Vectors], maximum: int, random: np.random.Generator) -> Vectors:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.datasets.vectors import unit
 from roomgraph.semantics.classifiers.classifier import PlaceClassifier
 from roomgraph.semantics.descriptors.descriptor import Description, Image, ImageDescriptor
 from roomgraph.semantics.labels import UNKNOWN, LabelSpace
@@ -161,7 +160,7 @@ class PlaceModel:
             signature=description.signature,
             familiarity=familiarity,
             words=self._words(description.vector, winner) if is_known else (),
-            view=unit(description.vector),
+            view=self.descriptor.view(description),
         )
 
     def _description(self, colour: Image | None, features: Features | None) -> Description | None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from roomgraph.datasets.files import replace_folder, replacing
+from roomgraph.datasets.files import is_working_folder, replace_folder, replacing
 from roomgraph.semantics.classifiers.classifier import PlaceClassifier
 from roomgraph.semantics.classifiers.registry import CLASSIFIERS
 from roomgraph.semantics.descriptors.descriptor import ImageDescriptor
@@ -61,6 +61,11 @@ def refuse_other(path: Path, overwrite: bool) -> None:
     SemanticsError
         `path` exists and `overwrite` is false, or it holds something that is not a model.
     """
+    if is_working_folder(path):
+        raise SemanticsError(
+            "the working folder cannot be replaced", where=path, expected="a folder of its own",
+            hint="choose another output",
+        )  # fmt: skip
     if not path.exists():
         return
     if not overwrite:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.recognition.transitions import without_staying
 from roomgraph.semantics.temporal.look import Look
 from roomgraph.semantics.temporal.odometer import INDEPENDENT_M
@@ -39,10 +40,12 @@ class PlaceFilter(TemporalModel):
     """
 
     name = "filter"
+    meaning = "hidden Markov model"
 
-    def __init__(self, transitions: FloatArray, change_m: float) -> None:
-        self.transitions = without_staying(transitions)
-        self.change_m = change_m
+    def __init__(
+        self, transitions: FloatArray, change_m: float, settings: Settings | None = None
+    ) -> None:
+        super().__init__(without_staying(transitions), change_m, settings)
         self._belief: FloatArray | None = None
 
     def advance(self, look: Look) -> None:

@@ -12,7 +12,6 @@ from roomgraph.semantics.labels import UNKNOWN
 from roomgraph.semantics.recognition.model import PlaceModel, PlacePrediction
 from roomgraph.semantics.temporal.look import FrameInput, Look
 from roomgraph.semantics.temporal.odometer import Odometer
-from roomgraph.semantics.temporal.registry import TEMPORAL_MODELS
 from roomgraph.semantics.temporal.settings import LabellerSettings
 
 
@@ -77,8 +76,7 @@ class PlaceLabeller:
         self.model = model
         self.settings = settings
         if model is not None:
-            temporal = TEMPORAL_MODELS[settings.method]
-            self._temporal = temporal(model.transitions, settings.change_m)
+            self._temporal = settings.make_model(model.transitions)
         self._odometer = Odometer()
         self._looks: list[Look] = []
         self._waiting: deque[tuple[int, FrameInput]] = deque()

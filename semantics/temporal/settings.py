@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, field_validator
 
-from roomgraph.datasets.plugins import known_name
+from roomgraph.datasets.plugins import known_name, settings_by_name
 from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.temporal.registry import TEMPORAL_MODELS
+from roomgraph.semantics.temporal.temporal_model import TemporalModel
+
+if TYPE_CHECKING:
+    TemporalSettings = Settings
+else:
+    TemporalSettings = settings_by_name("TemporalSettings", __name__, TEMPORAL_MODELS)
 
 
 class LabellerSettings(Settings):
@@ -14,8 +24,7 @@ class LabellerSettings(Settings):
 
     method: str = Field(
         default="filter",
-        description="filter (a hidden Markov model) or vote (majority of neighbouring frames, as "
-        "in the paper)",
+        description=" or ".join(f"{m.name} ({m.meaning})" for m in TEMPORAL_MODELS.values()),
     )
     window: int = Field(
         default=31,
@@ -34,8 +43,10 @@ class LabellerSettings(Settings):
         description="maximum number of frames before a label is given with the evidence so far",
     )
     change_m: float = Field(
-        default=4.0, gt=0, description="mean distance walked in one kind of place, metres (filter)"
+        default=4.0, gt=0, description="mean distance walked in one kind of place, metres"
     )
+
+    methods: TemporalSettings = TemporalSettings()
 
     @field_validator("method")
     @classmethod
@@ -48,3 +59,14 @@ class LabellerSettings(Settings):
         if window % 2 == 0:
             raise ValueError("the window must be odd, so that the frame is in its middle")
         return window
+
+    def make_model(self, transitions: NDArray[np.float64]) -> TemporalModel:
+        """Return the chosen temporal model, for kinds of place that follow each other so.
+
+        Parameters
+        ----------
+        transitions : (K, K) float64
+            Chance of each kind of place (column) after leaving a kind (row).
+        """
+        settings: Settings = getattr(self.methods, self.method)
+        return TEMPORAL_MODELS[self.method](transitions, self.change_m, settings)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from roomgraph.datasets.settings import Settings
 from roomgraph.semantics.temporal.look import Look
 
 
@@ -29,16 +31,39 @@ class TemporalModel(Protocol):
         Chance of each kind of place (column) after leaving a kind (row).
     change_m : float
         Metres walked in one kind of place, on average.
+    settings : Settings, optional
+        An instance of the class's `settings_class`.
+
+    Attributes
+    ----------
+    name : str
+        What it is called in settings and on the command line.
+    meaning : str
+        What it does, in a few words.
+    settings_class : type
+        Its own settings; the default has none.
     """
 
     name: ClassVar[str]
+    meaning: ClassVar[str]
+    settings_class: ClassVar[type[Settings]] = Settings
 
-    def __init__(self, transitions: NDArray[np.float64], change_m: float) -> None: ...
+    transitions: NDArray[np.float64]
+    change_m: float
+    settings: Any
 
+    def __init__(
+        self, transitions: NDArray[np.float64], change_m: float, settings: Settings | None = None
+    ) -> None:
+        self.transitions, self.change_m = transitions, change_m
+        self.settings = self.settings_class() if settings is None else settings
+
+    @abstractmethod
     def advance(self, look: Look) -> None:
         """Add a look to the past: `belief` will not get it again."""
         ...
 
+    @abstractmethod
     def belief(self, order: int, looks: Sequence[Look], voters: Sequence[Look]) -> Belief:
         """Return the belief about a frame.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roomgraph.semantics.temporal.look import Look
 from roomgraph.semantics.temporal.temporal_model import Belief, TemporalModel
@@ -18,9 +17,7 @@ class Vote(TemporalModel):
     """
 
     name = "vote"
-
-    def __init__(self, transitions: NDArray[np.float64], change_m: float) -> None:
-        """Need neither."""
+    meaning = "majority of neighbouring frames, as in the paper"
 
     def advance(self, look: Look) -> None:
         """Forget a look: only those around a frame vote."""

@@ -20,7 +20,7 @@ def lines_of(capsys, clock, seconds_each, counts=range(1, 41), total=40):
         for count in counts:
             clock[0] += seconds_each
             advance(count, total, "ok")
-    return capsys.readouterr().out.splitlines()
+    return capsys.readouterr().err.splitlines()
 
 
 def test_slow_work_is_told_of_at_every_tenth(capsys, clock):
@@ -43,7 +43,7 @@ def test_work_that_fails_is_not_said_to_have_ended(capsys, clock):
     with pytest.raises(RuntimeError), Terminal().progress("Mapping kitchen") as advance:
         advance(1, 2, "")
         raise RuntimeError
-    assert capsys.readouterr().out == "Mapping kitchen ...\n"
+    assert capsys.readouterr().err == "Mapping kitchen ...\n"
 
 
 def test_work_that_nobody_counts_is_said_once(capsys, clock):
@@ -51,7 +51,7 @@ def test_work_that_nobody_counts_is_said_once(capsys, clock):
         clock[0] += 3
     with Terminal().progress("Learning"):
         clock[0] += 3
-    assert capsys.readouterr().out.splitlines() == [
+    assert capsys.readouterr().err.splitlines() == [
         "Looking at [the] data",
         "Learning ...",
         "Learning: done, 3 s",
@@ -63,7 +63,8 @@ def test_quiet_says_nothing(capsys, clock):
     with terminal.working("Looking"), terminal.progress("Mapping") as advance:
         clock[0] += 100
         advance(5, 9, "")
-    assert capsys.readouterr().out == ""
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "")
 
 
 @pytest.mark.slow
@@ -71,5 +72,5 @@ def test_rendering_into_a_file_tells_when_it_ended(tmp_path, monkeypatch, capsys
     flags = ("--frames", "2", "--width", "64", "--height", "48")
     assert roomgraph(monkeypatch, "synth", "-o", tmp_path / "floor", *flags) == 0
     title = "Rendering building 0 (day)"
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[:-1] == [f"{title} ...", f"{title}: 2 of 2 frames, 0 s"]
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == [f"{title} ...", f"{title}: 2 of 2 frames, 0 s"]

@@ -25,10 +25,24 @@ def test_the_program_of_the_readme(rendered_walk, mapped, tmp_path, monkeypatch,
     assert re.match(r"\('\w+', .*\) \d+\.\d+ \w+", said[2])
 
 
+def test_an_image_of_another_shape_is_refused(mapped, rendered_walk):
+    run = roomgraph.open_run(mapped[1])
+    colour = roomgraph.open_sequence(rendered_walk)[0].colour
+    with pytest.raises(roomgraph.RoomgraphError, match="aspect ratio"):
+        run.locate(colour[:, :200])
+    with pytest.raises(roomgraph.RoomgraphError, match="not a colour image"):
+        run.locate(colour[:, :, 0])
+
+
+def test_completion_leads_to_the_floors():
+    assert {"app", "datasets", "semantics", "slam", "Slam", "open_run"} <= set(dir(roomgraph))
+    assert roomgraph.slam.Slam is roomgraph.Slam
+
+
 def test_every_public_name_is_there():
     for floor in ("", ".app", ".slam", ".semantics", ".datasets"):
         module = __import__(f"roomgraph{floor}", fromlist=["*"])
         assert module.__all__
         for name in module.__all__:
-            assert getattr(module, name).__doc__
+            assert getattr(module, name).__doc__, name
     assert roomgraph.__version__

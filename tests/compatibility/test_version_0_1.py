@@ -10,7 +10,7 @@ import pytest
 
 from roomgraph import open_run
 from roomgraph.app.errors import AppError
-from roomgraph.app.learning.correction import correct_run
+from roomgraph.app.learning.correction import corrections_of, write_corrected
 from roomgraph.app.settings import load_settings
 from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.datasets.readers.images import read_colour
@@ -102,7 +102,8 @@ def test_an_old_settings_file_is_answered_by_the_new_name(old_run):
 
 def test_an_old_run_is_corrected_by_the_settings_of_the_run(old_run):
     """Its `change_m` is 3, not the default: what follows from a correction depends on it."""
-    (correction,) = correct_run(old_run, {"office1": "library"})
+    (correction,) = corrections_of(old_run, {"office1": "library"})
+    write_corrected(old_run, correction.graph)
     assert correction.place == "library1"
     graph = json.loads(old_run.graph_json.read_text())
     assert networkx.node_link_graph(graph).number_of_nodes() == 5

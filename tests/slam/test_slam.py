@@ -7,13 +7,12 @@ import pytest
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.frame import Frame
-from roomgraph.datasets.sequence import select
+from roomgraph.datasets.sequence import frames_of, select
 from roomgraph.slam.evaluation import compare
 from roomgraph.slam.reconstruction.point_map import LiveMap
 from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
 from roomgraph.slam.tracking import TrackingState
-from tests.helpers import frames_of
 from tests.slam.helpers import way_of
 
 

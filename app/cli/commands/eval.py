@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -94,9 +94,13 @@ def evaluate(
     if protocol is not None or run is None:
         if protocol is None or run is not None:
             raise AppError("nothing to evaluate", expected="either RUN or --protocol NAME")
+        options.refuse_unused("without --protocol", groundtruth=groundtruth, places=places)
         settings = load_settings(config, {"seed": seed})
         outcome = _Outcome(output or Path("results") / "protocols", protocol, overwrite)
         return _experiment(outcome, recipe.recipe(), settings, data or [], terminal)
+    options.refuse_unused(
+        "with --protocol", data=data or None, config=config, seed=seed, **asdict(recipe)
+    )
     if output is not None:
         refuse_existing(output, overwrite)
     found = evaluate_run(RunFolder(run), groundtruth, places)
@@ -139,6 +143,7 @@ def _experiment(
     outcome.check()
     with threadpool_limits(1, user_api="blas"):
         if outcome.protocol == "vocabulary":
+            options.refuse_unused("with other experiments", **asdict(recipe))
             content = write_vocabulary(outcome.directory, run_vocabulary(data, terminal), data)
             terminal.say(vocabulary_markdown(content))
         else:

@@ -72,6 +72,7 @@ def label(
 
     terminal = Terminal(quiet, verbose)
     if changes:
+        options.refuse_unused("without --set", config=config, dataset=dataset, camera=camera)
         return _correct(model, data, changes, output, overwrite, terminal)
     if output is not None:
         refuse_existing(output, overwrite)
@@ -98,10 +99,11 @@ def _correct(
     terminal: Terminal,
 ) -> None:
     from roomgraph.app.learning.correction import (
-        correct_run,
+        corrections_of,
         describe_correction,
         learn_from_run,
         parse_changes,
+        write_corrected,
     )
     from roomgraph.app.storage.run_folder import RunFolder
     from roomgraph.semantics.recognition.model_files import load_model, refuse_other, save_model
@@ -111,12 +113,14 @@ def _correct(
         refuse_other(output, overwrite)
     known = load_model(model)
     folder = RunFolder(run)
-    corrections = correct_run(folder, changes)
+    corrections = corrections_of(folder, changes)
+    if output is not None:
+        # The run is changed last: if learning fails, the same command can be given again.
+        with terminal.progress("Learning the corrected places") as advance:
+            learned = learn_from_run(known, folder, corrections, 0, advance)
+        save_model(output, learned, overwrite)
+    write_corrected(folder, corrections[-1].graph)
     for place, correction in zip(changes, corrections, strict=True):
         terminal.say(describe_correction(correction, place))
-    if output is None:
-        return
-    with terminal.progress("Learning the corrected places") as advance:
-        learned = learn_from_run(known, folder, corrections, 0, advance)
-    save_model(output, learned, overwrite)
-    terminal.say(f"Model that knows {', '.join(learned.labels.names[1:])} written to {output}")
+    if output is not None:
+        terminal.say(f"Model that knows {', '.join(learned.labels.names[1:])} written to {output}")

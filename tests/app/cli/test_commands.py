@@ -4,15 +4,18 @@ import json
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 
 import cv2
 import numpy as np
 import pytest
 
+from roomgraph import open_run
 from roomgraph.app.storage.run_folder import RunFolder
 from roomgraph.datasets.readers.registry import open_sequence
 from roomgraph.datasets.trajectory import read_tum
 from roomgraph.semantics.graph.files import read_graph_json
+from roomgraph.semantics.recognition.model_files import load_model, save_model
 from roomgraph.semantics.rooms.lookup import places_at
 from tests.app.command import roomgraph
 from tests.check_run import problems
@@ -313,3 +316,48 @@ def test_watching_without_a_display_is_refused_at_once(
         monkeypatch.delenv(name, raising=False)
     arguments = ("run", rendered_walk, "-o", tmp_path / "out", "-v", "--quiet")
     assert "leave out -v" in _fails(monkeypatch, capsys, *arguments)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("eval", "RUN", "--descriptor", "words"),
+        ("eval", "--protocol", "vocabulary", "--preset", "paper"),
+        ("label", "MODEL", "RUN", "--set", "a=b", "--dataset", "tum"),
+    ],
+    ids=lambda arguments: arguments[0] + arguments[-1],
+)
+def test_an_option_without_effect_is_refused(tmp_path, monkeypatch, capsys, arguments):
+    assert "option has no effect here" in _fails(monkeypatch, capsys, *arguments)
+
+
+def test_the_working_folder_is_never_replaced(tmp_path, rendered_walk, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for command in (("run", rendered_walk), ("train", rendered_walk), ("synth",)):
+        said = _fails(monkeypatch, capsys, *command, "-o", ".", "--overwrite")
+        assert "the working folder cannot be replaced" in said
+
+
+def test_a_preset_and_settings_that_say_otherwise_are_refused(tmp_path, monkeypatch, capsys):
+    (tmp_path / "s.toml").write_text("[semantics.training]\nstride = 2\n")
+    arguments = ("train", tmp_path, "-o", tmp_path / "m", "--config", tmp_path / "s.toml")
+    said = _fails(monkeypatch, capsys, *arguments, "--preset", "paper")
+    assert "leave one of them out" in said
+
+
+def test_a_name_that_is_none_is_answered_by_those_that_are(tmp_path, monkeypatch, capsys):
+    (tmp_path / "s.toml").write_text("[semantics.training]\ndescriptor = 'wrods'\n")
+    arguments = ("train", tmp_path, "-o", tmp_path / "m", "--config", tmp_path / "s.toml")
+    assert "expected one of words, fisher; got 'wrods'" in _fails(monkeypatch, capsys, *arguments)
+
+
+def test_a_correction_that_cannot_be_learned_changes_nothing(mapped, tmp_path, monkeypatch, capsys):
+    model, run = mapped
+    shutil.copytree(run, tmp_path / "run")
+    plain = tmp_path / "plain"
+    save_model(plain, replace(load_model(model), exemplars=None))
+    before = (tmp_path / "run" / "graph.json").read_bytes()
+    place = open_run(run).graph.places[0]
+    arguments = ("label", plain, tmp_path / "run", "--set", f"{place}=attic", "-o", tmp_path / "n")
+    assert "keeps no exemplars" in _fails(monkeypatch, capsys, *arguments, "--quiet")
+    assert (tmp_path / "run" / "graph.json").read_bytes() == before

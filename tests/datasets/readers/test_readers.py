@@ -15,8 +15,7 @@ from roomgraph.datasets.readers.images import (
     undistort_depth,
 )
 from roomgraph.datasets.readers.registry import READERS, guess_layout, open_sequence
-from roomgraph.datasets.sequence import Sequence, select
-from tests.helpers import frames_of
+from roomgraph.datasets.sequence import Sequence, frames_of, select
 
 WIDTH, HEIGHT = 32, 24
 CAMERA = Intrinsics(WIDTH, HEIGHT, 30.0, 30.0, 15.5, 11.5)
@@ -244,6 +243,9 @@ class Bag:
 
     def __len__(self):
         return len(self.stamps_s)
+
+    def __iter__(self):
+        return frames_of(self)
 
     def __getitem__(self, index):
         depth = np.full((HEIGHT, WIDTH), index / self.camera.depth_scale, np.float32)

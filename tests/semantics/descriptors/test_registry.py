@@ -1,12 +1,15 @@
 """What holds for every image descriptor."""
 
+import pickle
+
 import cv2
 import numpy as np
 import pytest
 
 from roomgraph.datasets.plugins import classes_by_name
-from roomgraph.semantics.descriptors.descriptor import vectors_of
+from roomgraph.semantics.descriptors.descriptor import ImageDescriptor, vectors_of
 from roomgraph.semantics.descriptors.registry import DESCRIPTORS
+from roomgraph.semantics.descriptors.words import WordsSettings
 from roomgraph.semantics.recognition.settings import TrainingSettings
 from roomgraph.slam.features.extraction import FeatureExtractor, FeatureSettings
 
@@ -97,3 +100,36 @@ def test_two_of_one_name_are_refused():
         classes_by_name(
             "roomgraph.semantics.descriptors", "words.WordsDescriptor", "words.WordsDescriptor"
         )
+
+
+def test_it_can_be_copied_for_another_process(fitted):
+    descriptor, _ = fitted
+    prepared = descriptor.prepare(picture(102))
+    again = pickle.loads(pickle.dumps(descriptor))
+    np.testing.assert_array_equal(
+        again.describe(prepared).vector, descriptor.describe(prepared).vector
+    )
+
+
+def test_change_is_measured_by_vectors_of_unit_length(fitted):
+    descriptor, _ = fitted
+    colour = picture(103)
+    features = FeatureExtractor(FEATURES).extract_image(colour)
+    view = descriptor.view(descriptor.describe(descriptor.prepare(colour, features)))
+    assert np.linalg.norm(view) == pytest.approx(1)
+
+
+def test_words_measure_change_by_counts_whatever_the_classifier_sees():
+    descriptor = DESCRIPTORS["words"](WordsSettings(n_words=4, normalisation="hellinger"))
+    descriptor.with_arrays({"prototypes": np.eye(4, dtype=np.float32)})
+    found = descriptor.describe(np.eye(4, dtype=np.float32)[[0, 0, 0, 1, 2]])
+    np.testing.assert_allclose(descriptor.view(found), np.array([3, 1, 1, 0]) / np.sqrt(11))
+    np.testing.assert_allclose(found.vector, np.sqrt([0.6, 0.2, 0.2, 0]))
+
+
+def test_a_descriptor_without_its_methods_is_refused():
+    class Forgetful(ImageDescriptor):
+        name = "forgetful"
+
+    with pytest.raises(TypeError, match="length"):
+        Forgetful()

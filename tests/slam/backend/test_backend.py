@@ -5,12 +5,11 @@ import threading
 import numpy as np
 import pytest
 
-from roomgraph.datasets.sequence import select
+from roomgraph.datasets.sequence import frames_of, select
 from roomgraph.slam.backend.backend import IN_FLIGHT
 from roomgraph.slam.backend.mapper import Mapper
 from roomgraph.slam.settings import SlamSettings
 from roomgraph.slam.slam import Slam
-from tests.helpers import frames_of
 
 
 @pytest.fixture
