@@ -20,7 +20,7 @@ def test_the_program_of_the_readme(rendered_walk, mapped, tmp_path, monkeypatch,
     monkeypatch.chdir(tmp_path)
     exec(compile(program, "README.md", "exec"), {})
     said = capsys.readouterr().out.splitlines()
-    assert re.match(r"\d+ keyframes; last frame ok, pose \[\[", said[0])
+    assert re.match(r"\d+ keyframes; last frame ok: \[\[", said[0])
     assert said[-2] in ("corridor", "elevator_area", "office")
     assert re.match(r"\('\w+', .*\) \d+\.\d+ \w+", said[-1])
 
