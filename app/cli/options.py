@@ -154,22 +154,22 @@ class SettingFlags:
 
 
 def refuse_unused(where: str, **flags: object) -> None:
-    """Raise where flags were given that this way of using a command does not look at.
+    """Raise if options were given that have no effect in this use of a command.
 
     Parameters
     ----------
     where : str
-        When they count: ``with --protocol``.
+        When they are used: ``with --protocol``.
     flags : object
-        By name; None where they were not given.
+        Values by name; None if not given.
     """
     from roomgraph.app.errors import AppError
 
     given = [f"--{name.replace('_', '-')}" for name, value in flags.items() if value is not None]
     if given:
         raise AppError(
-            "option has no effect here", where=", ".join(given), expected=f"it only {where}",
-            hint="leave it out",
+            "option has no effect here", where=", ".join(given),
+            hint=f"it is used only {where}; leave it out",
         )  # fmt: skip
 
 

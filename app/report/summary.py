@@ -23,7 +23,7 @@ def summary_content(
     area = sum(room.area_m2 for room in graph.rooms)
     share = metrics["frames_tracked"] / max(1, metrics["frames"])
     figures = [
-        (str(len(graph.rooms)), "places"),
+        (str(len(graph.rooms)), "place" if len(graph.rooms) == 1 else "places"),
         (f"{area:.0f} m²", "floor"),
         (f"{metrics['path_length_m']:.1f} m", "walked"),
         (f"{share:.0%}", f"of {metrics['frames']} frames tracked"),

@@ -18,6 +18,8 @@ from roomgraph.datasets.trajectory import Trajectory, read_tum
 
 # Only a folder that holds all of these is a run, and may be overwritten; they are written first.
 RUN_MARKS = ("config.toml", "input.toml")
+# Metrics that had another name in version 0.1.0.
+_RENAMED_METRICS = {"place_accuracy_per_frame_on_the_way": "place_accuracy_per_frame_online"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +151,7 @@ class RunFolder:
                 where=self.metrics,
                 expected="schema roomgraph/metrics/1",
             )
-        return values
+        return {_RENAMED_METRICS.get(name, name): value for name, value in values.items()}
 
     def read_input(self) -> InputOptions:
         """Return how the run's sequence was opened."""

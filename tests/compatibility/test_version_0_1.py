@@ -65,6 +65,7 @@ def test_a_run_opens_from_python():
     assert run.graph.places == ("corridor1", "office1")
     assert len(run.trajectory) == run.metrics["frames_tracked"] == 60
     assert len(run.points) == run.metrics["map_points"]
+    assert run.metrics["place_accuracy_per_frame_online"] == 0.9667
     assert run.route("corridor1", "office1").legs[-1].place == "office1"
     found = run.locate(read_colour(FOLDER / "images" / "05.jpg"))
     near = run.trajectory.positions[4]

@@ -143,7 +143,7 @@ def _experiment(
     outcome.check()
     with threadpool_limits(1, user_api="blas"):
         if outcome.protocol == "vocabulary":
-            options.refuse_unused("with other experiments", **asdict(recipe))
+            options.refuse_unused("with the other experiments", **asdict(recipe))
             content = write_vocabulary(outcome.directory, run_vocabulary(data, terminal), data)
             terminal.say(vocabulary_markdown(content))
         else:

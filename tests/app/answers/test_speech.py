@@ -114,7 +114,7 @@ def test_the_real_program_says_it_or_why_not():
     try:
         Voice().say("you are entering office 2")
     except AppError as error:
-        assert "the voice failed" in str(error)
+        assert "speech output failed" in str(error)
     wave = subprocess.run(
         ["espeak-ng", "--stdout", "--", "you are entering office 2"], capture_output=True,
         check=True,
