@@ -21,7 +21,7 @@ MAX_DIFFERENCE_S = 0.01
 class PingPongReplay:
     """A sequence followed by itself reversed, `laps` times: a long run that sees nothing new.
 
-    Time goes on: the way back takes as long as the way there. True poses are repeated likewise;
+    Time goes on: the way back takes as long as the way there. True poses are repeated;
     true labels are left out. See `datasets.sequence.Sequence` for the attributes.
 
     Parameters

@@ -20,7 +20,7 @@ from roomgraph.datasets.vectors import arc_lengths
 from roomgraph.semantics.evaluation.visible_rooms import RoomIndex
 from roomgraph.semantics.recognition.examples import Example
 
-# Number of successive images in a stretch: about 2.5 m of the way, or a third of a turn.
+# Number of successive images in one piece of a walk: about 2.5 m, or a third of a turn.
 STRETCH = 8
 # Every n-th pixel across and down says which room an image shows.
 _PIXEL_STEP = 8

@@ -130,7 +130,7 @@ class FrameHistory:
     def sketch(self) -> Callable[[], MapView]:
         """Return a function that draws the present map coarsely; see `Slam.map_sketcher`.
 
-        Without a place's room, what is seen through a door bears the label of this side of it.
+        Without a place's room, what is seen through a door gets the label of this side of it.
         """
         draw, frames = self.slam.map_sketcher(), list(self.frames)
         T_world_keyframe, constraints = self.slam.placed_poses, self.slam.constraints

@@ -43,7 +43,7 @@ class EvaluationSet:
     visible, visible_room_names : (N,) str
         Kind and very room of what most of the image shows, where that is known; else empty.
     own_share : (N,) float64
-        Share of the image that shows the room it was taken in, likewise.
+        Share of the image that shows the room it was taken in, where that is known.
     """
 
     vectors: NDArray[np.float64]
@@ -106,7 +106,7 @@ def run_split(
 def recognition(evaluation_set: EvaluationSet, seed: int) -> Iterator[SplitResult]:
     """Ten folds in each light and in all: whole visits held out, then random frames.
 
-    An image bears the label of the room it was taken in, as the paper's do. Where it is known what
+    An image has the label of the room it was taken in, as the paper's do. Where it is known what
     the images show, they are also learned and judged by that, with what is shown held out.
     """
     lights = sorted(set(evaluation_set.lights.tolist()))

@@ -78,7 +78,7 @@ class PlaceModel:
     Attributes
     ----------
     labels : LabelSpace
-        The labels it tells apart, and `unknown`.
+        The labels it distinguishes, and `unknown`.
     descriptor : ImageDescriptor
         Makes vectors of images.
     classifier : PlaceClassifier

@@ -18,9 +18,9 @@ USUAL_SCALES = (1000.0, 5000.0, 10000.0, 100.0, 1.0)
 class DepthScaleSettings(Settings):
     """Distances that an indoor recording has.
 
-    The scale of a single camera's depth cannot be told from its geometry: a room and its doll's
-    house look the same. What is known is what depth cameras can see. They are blind nearer than
-    0.25 to 0.5 m (Kinect, Azure Kinect, RealSense D4xx) and reach 4 to 10 m.
+    The scale of a single camera's depth cannot be found from its geometry: a room and its
+    model in miniature look the same. What is known is what depth cameras can see. They are blind
+    nearer than 0.25 to 0.5 m (Kinect, Azure Kinect, RealSense D4xx) and reach 4 to 10 m.
     """
 
     near_m: float = Field(

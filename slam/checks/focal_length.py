@@ -12,7 +12,7 @@ from roomgraph.slam.checks.corrected_cameras import refocused
 from roomgraph.slam.checks.finding import Finding
 from roomgraph.slam.geometry.noise import SensorNoise
 
-# Focal lengths across and down that differ by less, as a logarithm, are told as one.
+# Horizontal and vertical focal lengths whose logarithms differ by less are reported as one.
 ALIKE = 0.02
 
 
@@ -22,8 +22,9 @@ def find_wrong_focal(
     """Judge focal lengths by whether points of one frame lie rigidly in another.
 
     Under a wrong focal length the points of a turning camera shear, and no rigid motion brings
-    the two frames together. Where the camera does not turn, focal length and way cannot be told
-    apart (Triggs et al., 2000, section 9): then the standard error is large, and nothing is said.
+    the two frames together. Where the camera does not turn, focal length and path cannot be
+    separated (Triggs et al., 2000, section 9): the standard error is large then, and nothing is
+    reported.
     """
     found, camera = measure_focal(pairs, settings, noise), pairs[0].camera
     if found is None:
