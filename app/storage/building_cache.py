@@ -13,6 +13,7 @@ from pydantic import ValidationError
 import roomgraph.datasets.synthetic
 from roomgraph.app.console import Terminal
 from roomgraph.app.errors import AppError
+from roomgraph.datasets.files import replacing
 from roomgraph.datasets.synthetic.settings import BuildingSettings, Light
 
 
@@ -29,9 +30,20 @@ def building_settings(**values: Any) -> BuildingSettings:
     except ValidationError as error:
         first = error.errors()[0]
         raise AppError(
-            "building cannot be rendered", where=f"--{first['loc'][0]}".replace("_m", ""),
-            expected=first["msg"], got=repr(first["input"]),
+            "building cannot be rendered", where=_option(first["loc"]),
+            expected=first["msg"].removeprefix("Value error, "), got=_told(first["input"]),
         ) from error  # fmt: skip
+
+
+def _option(place: tuple[int | str, ...]) -> str | None:
+    """Return the option that a setting is given by; None for what several settle together."""
+    return f"--{place[0]}".replace("_m", "") if place else None
+
+
+def _told(value: Any) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {value[name]}" for name in ("plan", "floors", "visit"))
+    return repr(value)
 
 
 def render(
@@ -43,6 +55,23 @@ def render(
     title = f"Rendering building {settings.seed} ({', '.join(directories)})"
     with terminal.progress(title, "frames") as advance:
         write_sequences(directories, settings, lambda done, total: advance(done, total, ""))
+
+
+def draw_sheet(output: Path, settings: BuildingSettings, terminal: Terminal) -> Path:
+    """Draw a page of pictures of a building into a folder; return the file."""
+    import cv2
+
+    from roomgraph.datasets.synthetic.sheet import draw_page
+    from roomgraph.datasets.synthetic.world import make_world
+
+    with terminal.progress(f"Drawing building {settings.seed} ({settings.plan})", "rooms") as step:
+        page = draw_page(make_world(settings), lambda done, total: step(done, total, ""))
+    output.mkdir(parents=True, exist_ok=True)
+    path = output / f"{settings.plan}{settings.seed}.jpg"
+    with replacing(path) as temporary:
+        bgr = cv2.cvtColor(page, cv2.COLOR_RGB2BGR)
+        cv2.imwrite(str(temporary), bgr, [cv2.IMWRITE_JPEG_QUALITY, 82])
+    return path
 
 
 def cached(lights: tuple[Light, ...], settings: BuildingSettings, terminal: Terminal) -> list[Path]:

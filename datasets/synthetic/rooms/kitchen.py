@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import cv2
 
-from roomgraph.datasets.synthetic.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     Site,

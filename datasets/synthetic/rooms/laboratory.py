@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roomgraph.datasets.synthetic.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     SCREEN_GLOW,

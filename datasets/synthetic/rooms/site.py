@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from roomgraph.datasets.synthetic.layout import CEILING_M, FloorPlan, Room
-from roomgraph.datasets.synthetic.lighting import EVENING, LAMP, WINDOW, Lamp
-from roomgraph.datasets.synthetic.mesh import Glow, Image, Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.plans.layout import CEILING_M, FloorPlan, Room
+from roomgraph.datasets.synthetic.rendering.lighting import EVENING, LAMP, WINDOW
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Lamp, Material, Stand, Surfaces
 from roomgraph.datasets.synthetic.textures import patterns, signs
 
 PIXELS_PER_M = 256

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cv2
 
-from roomgraph.datasets.synthetic.mesh import Image
+from roomgraph.datasets.synthetic.rendering.mesh import Image
 from roomgraph.datasets.synthetic.textures.finishes import cane
 from roomgraph.datasets.synthetic.textures.ink import VIVID, lines, photo, sheet, word, write
 from roomgraph.datasets.synthetic.textures.patterns import (

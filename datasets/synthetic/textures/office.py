@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from roomgraph.datasets.synthetic.mesh import Image
+from roomgraph.datasets.synthetic.rendering.mesh import Image
 from roomgraph.datasets.synthetic.textures.ink import VIVID, chart, lines, sheet, word, write
 from roomgraph.datasets.synthetic.textures.patterns import (
     Colour,

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from roomgraph.datasets.synthetic.mesh import Image
+from roomgraph.datasets.synthetic.rendering.mesh import Image
 
 Colour = tuple[int, int, int]
 Plane = NDArray[np.float32]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from roomgraph.datasets.synthetic.mesh import Image
+from roomgraph.datasets.synthetic.rendering.mesh import Image
 from roomgraph.datasets.synthetic.textures.bathroom import person
 from roomgraph.datasets.synthetic.textures.finishes import tread
 from roomgraph.datasets.synthetic.textures.ink import VIVID, lines, word, write

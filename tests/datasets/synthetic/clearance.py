@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roomgraph.datasets.synthetic.building import Building
-from roomgraph.datasets.synthetic.layout import Doorway, Rectangle, Room
+from roomgraph.datasets.synthetic.plans.layout import Doorway, Rectangle, Room
 
 FloatArray = NDArray[np.float64]
 

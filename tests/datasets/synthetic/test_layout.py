@@ -11,10 +11,11 @@ from scipy.spatial import cKDTree
 
 from roomgraph.datasets import se3
 from roomgraph.datasets.synthetic.building import Building, build
-from roomgraph.datasets.synthetic.layout import WALL_M, Rectangle, plan_floor
-from roomgraph.datasets.synthetic.mesh import Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.motion.walk import find_way, walk
+from roomgraph.datasets.synthetic.plans.corridor import plan_floor
+from roomgraph.datasets.synthetic.plans.layout import WALL_M, Rectangle
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand, Surfaces
 from roomgraph.datasets.synthetic.settings import BuildingSettings
-from roomgraph.datasets.synthetic.walk import find_way, walk
 from tests.datasets.synthetic.clearance import clearance
 
 pytestmark = pytest.mark.slow

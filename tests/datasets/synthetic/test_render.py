@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from roomgraph.datasets.synthetic.building import build
-from roomgraph.datasets.synthetic.layout import CEILING_M
-from roomgraph.datasets.synthetic.renderer import Renderer
-from roomgraph.datasets.synthetic.sensor import FOCAL_BASELINE, NoiseBank, measure
+from roomgraph.datasets.synthetic.cameras.kinect import FOCAL_BASELINE, NoiseBank, measure
+from roomgraph.datasets.synthetic.motion.walk import camera_poses, walk
+from roomgraph.datasets.synthetic.plans.layout import CEILING_M
+from roomgraph.datasets.synthetic.rendering.renderer import Renderer
 from roomgraph.datasets.synthetic.settings import LIGHTS, BuildingSettings
-from roomgraph.datasets.synthetic.walk import camera_poses, walk
 
 pytestmark = pytest.mark.slow
 

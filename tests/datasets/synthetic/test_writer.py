@@ -14,8 +14,8 @@ from roomgraph.datasets.errors import DatasetError
 from roomgraph.datasets.places import read_places
 from roomgraph.datasets.readers.images import read_colour, read_depth
 from roomgraph.datasets.synthetic.building import build
+from roomgraph.datasets.synthetic.motion.walk import walk
 from roomgraph.datasets.synthetic.settings import BuildingSettings
-from roomgraph.datasets.synthetic.walk import walk
 from roomgraph.datasets.synthetic.writer import write_sequences
 from roomgraph.datasets.trajectory import read_tum
 

@@ -1,0 +1,1 @@
+"""What cameras make of a scene: depth sensors, photographs, an omnidirectional mirror."""

@@ -1,0 +1,1 @@
+"""What stands where: programmes of rooms, and the arranging of things in them."""

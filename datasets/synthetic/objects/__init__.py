@@ -1,0 +1,1 @@
+"""Furniture and small things, each as a person would name it."""

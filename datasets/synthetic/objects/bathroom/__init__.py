@@ -1,0 +1,1 @@
+"""Bathroom things: toilets, basins, tubs, towels."""

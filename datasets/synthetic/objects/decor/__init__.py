@@ -1,0 +1,1 @@
+"""What makes a room lived in: plants, pictures, textiles, toys, lamps."""

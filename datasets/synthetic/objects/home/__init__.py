@@ -1,0 +1,1 @@
+"""Furniture of homes, and the chairs and tables of all rooms."""

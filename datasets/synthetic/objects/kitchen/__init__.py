@@ -1,0 +1,1 @@
+"""Kitchen things: fitted units, appliances, crockery."""

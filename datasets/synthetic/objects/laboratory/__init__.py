@@ -1,0 +1,1 @@
+"""Laboratory things: benches, instruments, hoods, racks."""

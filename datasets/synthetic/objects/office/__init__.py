@@ -1,0 +1,1 @@
+"""Office things: desks, cabinets, boards, copiers."""

@@ -1,0 +1,1 @@
+"""Things of corridors, halls, store rooms and cleaners."""

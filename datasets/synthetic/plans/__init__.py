@@ -1,0 +1,1 @@
+"""Floor plans: rooms, doorways, levels; a file a family."""

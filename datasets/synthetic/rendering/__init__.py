@@ -1,0 +1,1 @@
+"""Surfaces, their light, and pictures of them by ray casting."""

@@ -1,0 +1,1 @@
+"""What a building is made of: walls, doors, stairs, elevators."""
