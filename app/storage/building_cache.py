@@ -31,7 +31,8 @@ def building_settings(**values: Any) -> BuildingSettings:
         first = error.errors()[0]
         raise AppError(
             "building cannot be rendered", where=_option(first["loc"]),
-            expected=first["msg"].removeprefix("Value error, "), got=_told(first["input"]),
+            expected=first["msg"].removeprefix("Value error, ").removeprefix("Input should be "),
+            got=_told(first["input"]),
         ) from error  # fmt: skip
 
 
@@ -54,20 +55,37 @@ def render(
 
     title = f"Rendering building {settings.seed} ({', '.join(directories)})"
     with terminal.progress(title, "frames") as advance:
-        write_sequences(directories, settings, lambda done, total: advance(done, total, ""))
+        write_sequences(
+            directories, settings, lambda done, total: advance(done, total, ""),
+            _cache_root() / "scenes",
+        )  # fmt: skip
 
 
-def draw_sheet(output: Path, settings: BuildingSettings, terminal: Terminal) -> Path:
-    """Draw a page of pictures of a building into a folder; return the file."""
+def draw_sheet(
+    output: Path, settings: BuildingSettings, overwrite: bool, terminal: Terminal
+) -> Path:
+    """Draw a page of pictures of a building into a folder; return the file.
+
+    Raises
+    ------
+    AppError
+        The page is there already, and not to be overwritten.
+    """
     import cv2
 
     from roomgraph.datasets.synthetic.sheet import draw_page
     from roomgraph.datasets.synthetic.world import make_world
 
+    visit = f"_visit{settings.visit}" if settings.visit else ""
+    path = output / f"{settings.plan}{settings.seed}{visit}.jpg"
+    if path.exists() and not overwrite:
+        raise AppError(
+            "page is there already", where=path, hint="overwrite it with --overwrite, or name "
+            "another folder with -o",
+        )  # fmt: skip
     with terminal.progress(f"Drawing building {settings.seed} ({settings.plan})", "rooms") as step:
         page = draw_page(make_world(settings), lambda done, total: step(done, total, ""))
     output.mkdir(parents=True, exist_ok=True)
-    path = output / f"{settings.plan}{settings.seed}.jpg"
     with replacing(path) as temporary:
         bgr = cv2.cvtColor(page, cv2.COLOR_RGB2BGR)
         cv2.imwrite(str(temporary), bgr, [cv2.IMWRITE_JPEG_QUALITY, 82])

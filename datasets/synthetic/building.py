@@ -223,7 +223,8 @@ def _build_corridor(seed: int) -> Building:
     for door in plan.doorways:
         style = styles[door.rooms[1]]
         shell.frame_doorway(surfaces, door, style.frame, styles[door.rooms[0]].floor)
-    return Building(seed, plan, surfaces.quads, np.array(surfaces.footprints), lamps)
+    footprints = np.array(surfaces.footprints)
+    return Building(seed, plan, surfaces.quads, footprints, lamps, surfaces.things)
 
 
 def _furnish(site: Site, plan: FloorPlan, seed: int) -> Style:

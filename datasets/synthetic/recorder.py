@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -77,13 +78,20 @@ class Recorder:
     world : World
     lights : sequence of {"day", "dusk", "night"}
         The lights to record under.
+    cache : Path, optional
+        A folder where baked light is kept for the next time.
     """
 
-    def __init__(self, world: World, lights: Sequence[Light]) -> None:
+    def __init__(self, world: World, lights: Sequence[Light], cache: Path | None = None) -> None:
         self.world, self.lights = world, lights
         settings, moving = world.settings, world.animation
         self.renderer = Renderer(
-            world.building, settings.intrinsics, moving.bodies, moving.people, moving.lamps
+            world.building,
+            settings.intrinsics,
+            moving.bodies,
+            moving.people,
+            moving.lamps,
+            cache,
         )
         self.sensor = sensor(settings.sensor)
         self.depth_camera: DepthCamera | None = self.sensor.camera(settings.intrinsics)
@@ -132,7 +140,8 @@ class Recorder:
         half = float(photo.exposure_s[index]) / 2
         begin, end = self.world.motion.poses(np.array([stamp_s - half, stamp_s + half]))
         if covered:
-            radiance *= np.float32(COVERED)
+            # A finger spreads what it lets through: nothing of the scene is left.
+            radiance[:] = np.float32(COVERED) * radiance.mean(axis=(0, 1))
         else:
             t = np.where(np.isfinite(sight.hits.t), sight.hits.t, 0).astype(np.float32)
             T_start_end = inverse(begin) @ end

@@ -13,7 +13,8 @@ Light = Literal["day", "dusk", "night"]
 LIGHTS: tuple[Light, ...] = get_args(Light)
 PlanName = Literal["corridor", "ring", "suite", "open", "house"]
 SensorName = Literal["kinect", "stereo", "tof", "clean"]
-ROBOT_HEIGHT_M, HAND_HEIGHT_M = 0.8, 1.4
+# How high a camera is carried: by a robot, in the hand, under the mirror on a helmet.
+ROBOT_HEIGHT_M, HAND_HEIGHT_M, HEAD_HEIGHT_M = 0.8, 1.4, 1.5
 
 
 class BuildingSettings(Settings):
@@ -91,7 +92,10 @@ class BuildingSettings(Settings):
     @model_validator(mode="after")
     def _corridor_is_as_it_was(self) -> BuildingSettings:
         if self.plan == "corridor" and (self.floors > 1 or self.visit > 0):
-            raise ValueError("the corridor plan has one floor and no later visits: name another")
+            raise ValueError(
+                "one floor and visit 0 for the corridor plan; for more, --plan ring, suite, open "
+                "or house"
+            )
         return self
 
     @property
@@ -104,6 +108,8 @@ class BuildingSettings(Settings):
     @property
     def camera_height_m(self) -> float:
         """How high the camera is carried above the floor."""
+        if self.omni:
+            return HEAD_HEIGHT_M
         return HAND_HEIGHT_M if self.hand else ROBOT_HEIGHT_M
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -14,7 +14,7 @@ from roomgraph.datasets.synthetic.motion.free_space import free_space
 from roomgraph.datasets.synthetic.motion.walk import camera_poses
 from roomgraph.datasets.synthetic.plans.layout import Room
 from roomgraph.datasets.synthetic.rendering.eye import Eye
-from roomgraph.datasets.synthetic.rendering.mesh import Image
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Thing
 from roomgraph.datasets.synthetic.rendering.raycast import Hits
 from roomgraph.datasets.synthetic.rendering.renderer import Renderer, Sight
 from roomgraph.datasets.synthetic.settings import Light
@@ -28,6 +28,8 @@ EYE_M, LOOK_DOWN_DEG = 1.5, 12.0
 CANDIDATES = 6
 # The levels are cut at this height, and drawn at so many pixels a metre.
 CUT_M, PLAN_PX_PER_M = 2.1, 42
+# A thing counts for at most so much: the root of its pixels, one in sixteen being looked at.
+MOST_OF_ONE = 16.0
 MARGIN_PX, TITLE_PX, COLUMNS = 10, 22, 3
 # One also looks a little to the left and to the right of the room's middle.
 ASIDE = tuple(
@@ -91,8 +93,17 @@ def _viewpoint(world: World, renderer: Renderer, room: Room) -> tuple[float, Flo
         for place in chosen
         for target in (middle, *(place + (middle - place) @ turn.T for turn in ASIDE))
     ]
-    shown = [_shown(world, renderer, room, T) for T in poses]
+    inside = [thing for thing in world.building.things if _is_in(thing, world, room)]
+    shown = [_shown(renderer, inside, T) for T in poses]
     return 0.0, poses[int(np.argmax(shown))]
+
+
+def _is_in(thing: Thing, world: World, room: Room) -> bool:
+    """Whether a thing belongs to a room, as its first corner tells; doors do not."""
+    x, y, z = world.building.quads[thing.quads.start].corners[0]
+    on_level = room.base_m - 0.1 < z < room.base_m + room.ceiling_m
+    inside = float(room.floor.distance(np.array([[x, y]]))[0]) == 0
+    return on_level and inside and thing.name not in ("door", "window", "lamp")
 
 
 def _pose(place: FloatArray, target: FloatArray, room: Room, tilt_deg: float = 0.0) -> FloatArray:
@@ -117,16 +128,16 @@ def _before_elevator(world: World) -> tuple[float, FloatArray]:
     return ride.closing_s - 0.2 * DOORS_S, T
 
 
-def _shown(world: World, renderer: Renderer, room: Room, T: FloatArray) -> float:
-    """Return how much of a room is seen from a place: different things, not too near."""
+def _shown(renderer: Renderer, things_of: Sequence[Thing], T: FloatArray) -> float:
+    """Return how much of a room's things is seen from a place: many of them, not too near."""
     sight = renderer.look(renderer.eye, T)
     triangle, t = sight.hits.triangle[::4, ::4], sight.hits.t[::4, ::4]
     quads, counts = np.unique(triangle[(triangle >= 0) & (t > 0.7)] // 2, return_counts=True)
     pixels = dict(zip(quads.tolist(), counts.tolist(), strict=True))
     things = 0.0
-    for thing in world.building.things:
+    for thing in things_of:
         shown = sum(pixels.get(quad, 0) for quad in range(thing.quads.start, thing.quads.stop))
-        things += np.sqrt(shown) if shown > 6 else 0.0
+        things += min(np.sqrt(shown), MOST_OF_ONE) if shown > 6 else 0.0
     depth = np.where(np.isfinite(t), t, 0)
     deep = float(np.clip(np.median(depth), 0, 3.0))
     return things + 20 * deep - 200 * float((depth < 0.7).mean())

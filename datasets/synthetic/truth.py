@@ -81,7 +81,7 @@ class ObjectTruth:
 
 
 def object_truth(world: World) -> list[ObjectTruth]:
-    """Return all objects: what stands in the building, doors that move, people (at the start)."""
+    """Return all objects: what stands there, doors that move, people where they appear."""
     building, found = world.building, []
     counts: dict[str, int] = {}
 
@@ -102,12 +102,15 @@ def object_truth(world: World) -> list[ObjectTruth]:
         points = np.concatenate([quad.corners for quad in quads])
         add(thing.name, points, 2 * thing.quads.start, 2 * thing.quads.stop)
     start = 2 * len(building.quads)
-    moving = world.animation
+    moving, stamps = world.animation, world.trajectory.stamps_s
     kinds = [*moving.names, *["person"] * len(moving.people)]
     bodies: list[Body] = [*moving.bodies, *moving.people]
     for kind, body in zip(kinds, bodies, strict=True):
-        corners = body.corners(0.0).reshape(-1, 3)
-        add(kind, corners, start, start + 2 * len(body.quads))
+        # Somebody who comes later is told of where they appear; who never does, not at all.
+        there = next((float(stamp) for stamp in stamps if body.is_there(float(stamp))), None)
+        if there is not None:
+            corners = body.corners(there).reshape(-1, 3)
+            add(kind, corners, start, start + 2 * len(body.quads))
         start += 2 * len(body.quads)
     return found
 

@@ -36,7 +36,10 @@ BOXES_EVERY = 5
 
 
 def write_sequences(
-    directories: Mapping[Light, Path], settings: BuildingSettings, progress: Progress | None = None
+    directories: Mapping[Light, Path],
+    settings: BuildingSettings,
+    progress: Progress | None = None,
+    cache: Path | None = None,
 ) -> None:
     """Render the walk once for several lights, a folder each; `settings.light` does not matter.
 
@@ -55,6 +58,8 @@ def write_sequences(
         What to render.
     progress : callable, optional
         Called with the number of frames written and the number of all frames.
+    cache : Path, optional
+        A folder where baked light is kept for the next time.
 
     Raises
     ------
@@ -71,7 +76,7 @@ def write_sequences(
         for light, directory in directories.items()
     }
     try:
-        _write(temporary, settings, progress)
+        _write(temporary, settings, progress, cache)
         for light, directory in directories.items():
             replace_folder(temporary[light], directory)
     finally:
@@ -80,12 +85,15 @@ def write_sequences(
 
 
 def _write(
-    directories: Mapping[Light, Path], settings: BuildingSettings, progress: Progress | None
+    directories: Mapping[Light, Path],
+    settings: BuildingSettings,
+    progress: Progress | None,
+    cache: Path | None,
 ) -> None:
     world = make_world(settings)
     trajectory = world.trajectory
     lights = sorted(directories, key=LIGHTS.index)
-    recorder = Recorder(world, lights)
+    recorder = Recorder(world, lights, cache)
     for light, directory in directories.items():
         for name in _folders(recorder):
             (directory / name).mkdir(parents=True)

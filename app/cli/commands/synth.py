@@ -124,9 +124,9 @@ def synth(
         height=height,
         **given,
     )
-    clear_output(output, overwrite, ("building.json", "places.csv"))
     if sheet:
-        terminal.say(f"Written to {draw_sheet(output, settings, terminal)}")
+        terminal.say(f"Written to {draw_sheet(output, settings, overwrite, terminal)}")
         return
+    clear_output(output, overwrite, ("building.json", "places.csv"))
     render({settings.light: output}, settings, terminal)
     terminal.say(f"Written to {output}; map it with: roomgraph run {output}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,11 +13,15 @@ from roomgraph.datasets.synthetic.objects.catalogue import package_of
 from roomgraph.datasets.synthetic.objects.look import Look
 from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Stand
 
-TRIES = 18
+TRIES, NEEDED_TRIES = 18, 6
+# Larger rooms than this have more of what they may have several of.
+USUAL_M2 = 14.0
 # Of a room's floor, at most this share is furnished.
 FULLEST = 0.55
 # A table's top: how high it may be, and how large it is at least.
 TOP_M, TOP_AREA_M2 = (0.35, 1.15), 0.12
+# A small thing is put this far from what is on the table already.
+SMALL_APART_M = 0.18
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,18 +48,27 @@ class Arranger:
             rng = np.random.default_rng((*self.seed, number))
             if rng.random() > item.chance:
                 continue
-            for copy in range(int(rng.integers(item.least, item.most + 1))):
+            for copy in range(self._count(item, rng)):
                 is_needed = copy == 0 and item.chance >= 1
                 if not is_needed and 1 - self.plot.free_share > FULLEST:
                     break
-                if not self.place(item, rng) and is_needed:
-                    missing.append(item.model)
+                if not self.place(item, rng, NEEDED_TRIES if is_needed else 2) and is_needed:
+                    smaller = replace(item, model=item.instead, fit=None)
+                    if not item.instead or not self.place(smaller, rng, NEEDED_TRIES):
+                        missing.append(item.model)
         return missing
 
-    def place(self, item: Item, rng: np.random.Generator) -> bool:
-        """Build an item and put it somewhere; fitted ones are made smaller until they fit."""
+    def _count(self, item: Item, rng: np.random.Generator) -> int:
+        """Draw how many of an item a room gets: more in a large one, if it may have several."""
+        count = int(rng.integers(item.least, item.most + 1))
+        if item.most == 1:
+            return count
+        return max(item.least, round(count * max(1.0, self.plot.room.floor.area / USUAL_M2)))
+
+    def place(self, item: Item, rng: np.random.Generator, tries: int = 2) -> bool:
+        """Build an item and put it somewhere: other ones of it, or smaller ones, until one fits."""
         most = self._longest() - 0.08 if item.fit else 0.0
-        for shrink in (1.0, 0.85, 0.7, 0.55) if item.fit else (1.0, 1.0):
+        for shrink in (1.0, 0.85, 0.7, 0.55) if item.fit else (1.0,) * tries:
             options = {}
             if item.fit:
                 name, low, high = item.fit
@@ -89,7 +102,8 @@ class Arranger:
     def _at_wall(self, piece: Piece, in_corner: bool, rng: np.random.Generator) -> Placed | None:
         left, right = float(piece.low[0]), float(piece.high[0])
         # Pieces built round their middle stand off the wall by their own depth.
-        offset = max(0.0, -float(piece.low[1]))
+        behind = -float(piece.low[1])
+        offset = behind if behind > 0.06 else 0.0
         lengths = np.array([wall.face.length for wall in self.plot.walls])
         for _ in range(TRIES):
             number = int(rng.choice(len(lengths), p=lengths / lengths.sum()))
@@ -163,15 +177,28 @@ class Arranger:
             if placed.is_hung or package_of(placed.piece.model) == "decor":
                 continue
             tops = _tops(placed)
+            taken = [_above(placed, tops)] if tops else []
             for _ in range(int(rng.poisson(density)) if tops else 0):
                 piece = make_piece(SMALL[int(rng.integers(len(SMALL)))], rng, self.look)
                 corners = tops[int(rng.integers(len(tops)))]
                 u, v = rng.uniform(0.2, 0.8, 2)
                 at = (1 - v) * ((1 - u) * corners[0] + u * corners[1])
                 at += v * ((1 - u) * corners[3] + u * corners[2])
+                around = np.concatenate(taken) - at[:2]
+                if len(around) and np.linalg.norm(around, axis=1).min() < SMALL_APART_M:
+                    continue
+                taken.append(at[None, :2])
                 facing = placed.stand.facing + float(rng.uniform(-0.6, 0.6))
                 where = (float(at[0]), float(at[1]), float(at[2]) + 0.002)
                 self.plot.put(Placed(piece, Stand(placed.stand.surfaces, where, facing)))
+
+
+def _above(placed: Placed, tops: list[FloatArray]) -> FloatArray:
+    """Return where on the floor plan (N, 2) a piece's own parts rise above its tops."""
+    top = float(tops[0][0, 2]) - placed.stand.origin[2]
+    corners = np.concatenate([quad.corners for quad in placed.piece.surfaces.quads])
+    higher = corners[corners[:, 2] > top + 0.015]
+    return np.asarray(placed.stand.world(higher * (-1, 1, 1))[:, :2])
 
 
 def _tops(placed: Placed) -> list[FloatArray]:

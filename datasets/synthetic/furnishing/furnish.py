@@ -87,8 +87,10 @@ class Furnished:
 
 def furnish_room(room: Room, plan: FloorPlan, surfaces: Surfaces, now: Circumstances) -> Furnished:
     """Build a room with all that is in it."""
-    surfaces.rng = np.random.default_rng(now.stream(room, 0))
-    finish = draw_finish(room.label, room.ceiling_m, now.is_home, surfaces.rng)
+    model = _finished_like(room, plan)
+    surfaces.rng = np.random.default_rng(now.stream(model, 0))
+    finish = draw_finish(model.label, room.ceiling_m, now.is_home, surfaces.rng)
+    surfaces.rng = np.random.default_rng(now.stream(room, 6))
     walls = _walls(room, plan, surfaces)
     _raise(room, walls, finish, surfaces, room.level == plan.levels - 1)
     look = draw_look(np.random.default_rng(now.stream(room, 1)))
@@ -115,6 +117,20 @@ def furnish_room(room: Room, plan: FloorPlan, surfaces: Surfaces, now: Circumsta
         surfaces.rng = np.random.default_rng(now.stream(room, 5))
         hang_lamps(surfaces, room, now.is_home, is_on)
     return Furnished(finish, obstacles, seats, missing)
+
+
+def _finished_like(room: Room, plan: FloorPlan) -> Room:
+    """Return the room whose finishes a room has: no wall parts it from that one."""
+    first = room
+    while True:
+        joined = [
+            plan.room(door.rooms[0])
+            for door in plan.doorways
+            if door.kind == "open" and door.rooms[1] == first.key
+        ]
+        if not joined:
+            return first
+        first = joined[0]
 
 
 def _walls(room: Room, plan: FloorPlan, surfaces: Surfaces) -> list[Wall]:

@@ -26,6 +26,8 @@ class Item:
         An option of the model that is fitted to the longest free wall: its name and its bounds.
     near : (str, str) or None
         Where it goes if it can: "beside", "before" or "facing" a model that is there already.
+    instead : str
+        A smaller model for where this one does not fit.
     """
 
     model: str
@@ -35,6 +37,7 @@ class Item:
     chance: float = 1.0
     fit: tuple[str, float, float] | None = None
     near: tuple[str, str] | None = None
+    instead: str = ""
 
 
 PICTURES = (
@@ -78,7 +81,7 @@ PROGRAMMES: dict[str, tuple[Item, ...]] = {
     ),
     "kitchen": (
         Item("kitchen_run", "wall", 1, 2, fit=("width", 1.8, 4.2)),
-        Item("refrigerator", "wall", near=("beside", "kitchen_run")),
+        Item("refrigerator", "wall", 1, 1, 0.95, near=("beside", "kitchen_run")),
         Item("dining_table", "free", chance=0.4),
         Item("round_table", "free", chance=0.45),
         Item("kitchen_island", "free", chance=0.25),
@@ -106,7 +109,7 @@ PROGRAMMES: dict[str, tuple[Item, ...]] = {
     "bedroom": (
         Item("bed", "wall"),
         Item("nightstand", "wall", 1, 2, 0.85, near=("beside", "bed")),
-        Item("wardrobe", "wall", 1, 2),
+        Item("wardrobe", "wall", 1, 2, instead="dresser"),
         Item("dresser", "wall", chance=0.55),
         Item("desk", "wall", chance=0.25),
         Item("armchair", "free", chance=0.25),
@@ -133,7 +136,7 @@ PROGRAMMES: dict[str, tuple[Item, ...]] = {
         *PICTURES,
     ),
     "dining_room": (
-        Item("dining_table", "centre"),
+        Item("dining_table", "centre", instead="round_table"),
         Item("sideboard", "wall", 1, 1, 0.85),
         Item("bookcase", "wall", chance=0.25),
         Item("rug", "centre", chance=0.3),
@@ -143,7 +146,7 @@ PROGRAMMES: dict[str, tuple[Item, ...]] = {
         *PICTURES,
     ),
     "meeting_room": (
-        Item("meeting_table", "centre", fit=("length", 1.6, 3.6)),
+        Item("meeting_table", "centre", fit=("length", 1.4, 3.6), instead="round_table"),
         Item("projector_screen", "hung", chance=0.6),
         Item("whiteboard", "hung", chance=0.7),
         Item("tv_stand", "wall", chance=0.25),

@@ -32,7 +32,8 @@ class FreeSpace:
     origin : (2,) float64
         The corner of the grid, metres.
     clearance : (rows, columns) float64
-        Distance of each cell's middle to the nearest wall or thing, metres; 0 where there is one.
+        Distance of each cell's middle to the nearest wall or thing, metres; 0 where there is one,
+        and where nobody can get to.
     graph : (cells, cells) sparse matrix
         What it costs to walk from a cell to its neighbours.
     """
@@ -61,26 +62,13 @@ class FreeSpace:
         row, column = np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
         return np.asarray(inside & (self.clearance[row, column] > margin_m))
 
-    def reachable(self, begin: FloatArray) -> NDArray[np.bool_]:
-        """Whether each cell (cells,) can be walked to from a point (2,)."""
-        _, part = connected_components(self.graph, directed=False)
-        return np.asarray(part == part[self.cell(begin)])
-
     def way(self, begin: FloatArray, end: FloatArray) -> FloatArray:
-        """Return the middles (N, 2) of the cells of the best way between two points.
-
-        Raises
-        ------
-        ValueError
-            There is none.
-        """
+        """Return the middles (N, 2) of the cells of the best way between two points."""
         start, goal = self.cell(begin), self.cell(end)
         _, before = dijkstra(self.graph, True, np.array([start]), True)
         cells = [goal]
         while cells[-1] != start:
             cells.append(int(before[0, cells[-1]]))
-            if cells[-1] < 0:
-                raise ValueError(f"no way from {begin} to {end}")
         return self.middles(np.array(cells[::-1]))
 
 
@@ -116,8 +104,17 @@ def free_space(building: Building, level: int) -> FreeSpace:
         if where == level:
             fill(outline, 0)
     distance = cv2.distanceTransform(fine, cv2.DIST_L2, 5).astype(np.float64) * CELL_M / FINE
-    clearance = distance[FINE // 2 :: FINE, FINE // 2 :: FINE]
+    clearance = _without_pockets(distance[FINE // 2 :: FINE, FINE // 2 :: FINE])
     return FreeSpace(origin, clearance, _graph(clearance))
+
+
+def _without_pockets(clearance: FloatArray) -> FloatArray:
+    """Return the clearances with 0 where one cannot get to from the largest part of the floor."""
+    walkable = clearance > CLOSEST_M
+    _, parts = connected_components(_graph(clearance), directed=False)
+    part = np.reshape(parts, clearance.shape)
+    main = int(np.bincount(part[walkable]).argmax()) if walkable.any() else -1
+    return np.where(part == main, clearance, 0.0)
 
 
 def is_shaft(room: Room) -> bool:

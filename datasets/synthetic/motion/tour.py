@@ -111,8 +111,6 @@ def _views(room: Room, space: FreeSpace, last: FloatArray) -> list[FloatArray]:
     if not inside.any():
         return [_start(room, space)]
     middles = middles[inside]
-    reached = space.reachable(last)
-    middles = middles[reached[cells[inside]]] if reached[cells[inside]].any() else middles
     count = min(MOST_VIEWS, 1 + int(room.floor.area / AREA_PER_VIEW_M2))
     distance = np.linalg.norm(middles - last, axis=1)
     chosen: list[FloatArray] = []

@@ -21,7 +21,6 @@ from roomgraph.datasets.vectors import arc_lengths
 FloatArray = NDArray[np.float64]
 Point = tuple[float, float]
 
-HEIGHT_M = 0.8
 # Kept from furniture by the corners of the way; the spline that rounds them stays inside.
 MARGIN_M = 0.52
 # Largest round through a room, across and into it.
@@ -68,7 +67,7 @@ def walk(building: Building, settings: BuildingSettings) -> Trajectory:
     x, y = (np.interp(along, way.arc_m, way.xy[:, axis]) for axis in (0, 1))
     heading = np.interp(along, way.arc_m, way.heading)
     sway = 2 * np.pi * along / lap
-    height = HEIGHT_M + 0.004 * np.sin(41 * sway) + 0.003 * np.sin(67 * sway + 1)
+    height = settings.camera_height_m + 0.004 * np.sin(41 * sway) + 0.003 * np.sin(67 * sway + 1)
     pitch = np.deg2rad(-1.5 + 0.4 * np.sin(37 * sway) + 0.25 * np.sin(83 * sway + 2))
     roll = np.deg2rad(0.3 * np.sin(29 * sway + 1))
     T = camera_poses(np.column_stack([x, y, height]), heading, pitch, roll)

@@ -16,6 +16,7 @@ from roomgraph.datasets.synthetic.plans.layout import (
     Room,
     Shaft,
 )
+from roomgraph.datasets.synthetic.plans.slanting import slanted
 
 # Ceilings of rooms, and what lies between a ceiling and the floor above, metres.
 CEILINGS_M = (2.4, 3.5)
@@ -178,44 +179,10 @@ class Draft:
     def finish(self, kind: str) -> FloorPlan:
         """Slant some walls and return the plan."""
         if self.rng.random() < 0.45:
-            self.rooms = [self._slanted(room) for room in self.rooms]
+            self.rooms = [slanted(room, self.doorways, self.rng) for room in self.rooms]
         return FloorPlan(
             tuple(self.rooms), tuple(self.doorways), kind, self.storey_m, self.stairs, self.lift
         )
-
-    def _slanted(self, room: Room) -> Room:
-        """Cut a corner of a room, or turn one of its walls, where no opening is in the way."""
-        openings = [door for door in self.doorways if room.key in door.rooms]
-        is_shaft = room.label in ("stairwell", "elevator")
-        if is_shaft or any(d.kind == "open" for d in openings) or self.rng.random() < 0.45:
-            return room
-        corners = [(float(x), float(y)) for x, y in room.floor.polygon]
-        first = int(self.rng.integers(4))
-        before, here, after = (np.array(corners[(first + k) % 4]) for k in (-1, 0, 1))
-        to_before, to_after = before - here, after - here
-        shorter = min(float(np.linalg.norm(to_before)), float(np.linalg.norm(to_after)))
-        cut = float(self.rng.uniform(0.5, 0.3 * shorter + 0.3))
-        if self.rng.random() < 0.5:
-            moved = [here + unit_times(to_before, cut), here + unit_times(to_after, cut)]
-        else:
-            moved = [here + unit_times(to_after, 0.6 * cut)]
-        outline = list(corners)
-        outline[first : first + 1] = [(float(p[0]), float(p[1])) for p in moved]
-        reach = cut + 0.9
-        near = [d for d in openings if float(np.linalg.norm(np.array(d.xy) - here)) < reach + 0.4]
-        # A turned wall moves all along: no opening may be in it.
-        turned = len(moved) == 1 and any(_in_wall(d, here, before) for d in openings)
-        return room if near or turned else replace(room, outline=tuple(outline))
-
-
-def _in_wall(door: Doorway, a: np.ndarray, b: np.ndarray) -> bool:
-    axis = 0 if abs(a[0] - b[0]) < 1e-6 else 1
-    return bool(abs(door.xy[axis] - a[axis]) < 0.2)
-
-
-def unit_times(vector: np.ndarray, length: float) -> np.ndarray:
-    """Return a vector in the same direction with another length."""
-    return np.asarray(vector / np.linalg.norm(vector) * length)
 
 
 def shared_wall(a: Rectangle, b: Rectangle) -> Shared | None:

@@ -24,7 +24,7 @@ MAP_WIDTH = 512
 REACH_M = 6.0
 OCCLUSION_M = 1.0
 OCCLUSION_RAYS = 20
-SUN_POWER = 1.3
+SUN_POWER = 0.8
 
 # A light map has four channels: light through windows, from ceiling lamps, from the lamps that
 # burn in the evening, and ambient. A preset says how red, green and blue follow from them.
@@ -60,6 +60,8 @@ def bake(
     seed: int,
     still: int | None = None,
     sun: FloatArray | None = None,
+    *,
+    smooth: bool = False,
 ) -> LightMap:
     """Compute the light that arrives at every surface, with shadows.
 
@@ -77,6 +79,9 @@ def bake(
         Only the first so many quads stay where they are; the others get the mean light.
     sun : (3,) float64, optional
         The direction that sunlight comes from; it falls in where `scene` has windows.
+    smooth : bool
+        Whether the light of neighbouring points of a surface is averaged, against the grain that
+        few rays leave.
     """
     sizes = np.array([_samples(quad.corners) for quad in quads])
     places, height = pack([(int(h), int(w)) for w, h in sizes], MAP_WIDTH, 0)
@@ -96,7 +101,17 @@ def bake(
             light[owner == index] = quad.material.glow
     image = np.zeros((height, MAP_WIDTH, 4), dtype=np.float32)
     image[pixels[:, 1], pixels[:, 0]] = light
+    if smooth:
+        _smooth(image, places, sizes)
     return LightMap(image, places, sizes)
+
+
+def _smooth(image: Float32Array, places: NDArray[np.int64], sizes: NDArray[np.int64]) -> None:
+    """Average each surface's patch with itself over three samples each way, in place."""
+    for (x, y), (columns, rows) in zip(places, sizes, strict=True):
+        if min(columns, rows) >= 3:
+            patch = image[y : y + rows, x : x + columns]
+            patch[:] = cv2.blur(patch, (3, 3), borderType=cv2.BORDER_REPLICATE)
 
 
 def _samples(corners: FloatArray) -> tuple[int, int]:

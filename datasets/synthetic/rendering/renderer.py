@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from threading import Lock
 
 import cv2
@@ -13,11 +14,18 @@ from numpy.typing import NDArray
 from roomgraph.datasets.camera import Intrinsics
 from roomgraph.datasets.synthetic.building import Building
 from roomgraph.datasets.synthetic.cameras.kinect import NoiseBank, develop, measure
-from roomgraph.datasets.synthetic.rendering.atlas import LEVELS, Atlas, build_atlas
+from roomgraph.datasets.synthetic.rendering.atlas import LEVELS
 from roomgraph.datasets.synthetic.rendering.eye import Eye, pinhole
+from roomgraph.datasets.synthetic.rendering.light_cache import cached_light, light_key
 from roomgraph.datasets.synthetic.rendering.lighting import LightMap, bake, shade
 from roomgraph.datasets.synthetic.rendering.mesh import Image, Lamp, Quad
 from roomgraph.datasets.synthetic.rendering.raycast import Hits, Scene
+from roomgraph.datasets.synthetic.rendering.texturing import (
+    in_level,
+    lay_out,
+    light_corners,
+    triangle_table,
+)
 from roomgraph.datasets.synthetic.settings import LIGHTS, Light
 from roomgraph.datasets.synthetic.structure.moving import Body
 
@@ -71,6 +79,8 @@ class Renderer:
         Bodies that are lit evenly, as they go everywhere.
     lamps : sequence of Lamp
         More lamps than the building's.
+    cache : Path, optional
+        A folder where baked light is kept for the next time.
     """
 
     def __init__(
@@ -80,6 +90,7 @@ class Renderer:
         bodies: Sequence[Body] = (),
         people: Sequence[Body] = (),
         lamps: Sequence[Lamp] = (),
+        cache: Path | None = None,
     ) -> None:
         stiff = [quad for body in bodies for quad in body.quads]
         lit = [*building.quads, *stiff]
@@ -89,19 +100,32 @@ class Renderer:
         self.bodies = (*bodies, *people)
         self._first = _first_triangles(len(building.quads), self.bodies)
         self._people = 2 * len(lit)
-        self._atlas, corners, density = _lay_out(quads)
-        scene = Scene(lit) if stiff else self.scene
-        self._light = bake(
-            quads, [*building.lamps, *lamps], scene, building.seed, len(lit), building.sun
-        )
+        self._atlas, corners, density = lay_out(quads)
+        self._light = self._lit(building, quads, [*building.lamps, *lamps], len(lit), cache)
         self._tint = building.tint
-        self._table = _triangle_table(corners, _light_corners(self._light))
+        self._table = triangle_table(corners, light_corners(self._light))
         # One entry more than triangles: rays that hit nothing carry the index -1.
         self._density = np.append(np.log2(np.repeat(density, 2)), 0)
         self._shiny = np.append(np.repeat([quad.material.shiny for quad in quads], 2), True)
         self.eye = pinhole(intrinsics)
         self._bank = NoiseBank.draw(intrinsics.height, intrinsics.width)
         self._lock = Lock()
+
+    def _lit(
+        self, building: Building, quads: Sequence[Quad], lamps: Sequence[Lamp], still: int,
+        cache: Path | None,
+    ) -> LightMap:  # fmt: skip
+        """Return the light on all quads, the first `still` of which keep their places."""
+        rest = building.seed, still, building.sun, building.plan.kind
+        key = light_key(quads, lamps, *rest) if cache is not None else ""
+        scene = self.scene if still == len(building.quads) else Scene(quads[:still])
+        is_smooth = building.plan.kind != "corridor"
+        return cached_light(
+            cache, key,
+            lambda: bake(
+                quads, lamps, scene, building.seed, still, building.sun, smooth=is_smooth
+            ),
+        )  # fmt: skip
 
     def render(
         self,
@@ -229,7 +253,7 @@ class Renderer:
             detail -= pixels
         detail = detail + np.log2(sight.hits.t / slanted)
         level = np.asarray(cv2.convertScaleAbs(np.clip(detail, 0, LEVELS - 1)))
-        x, y = _in_level(self._atlas, place, level)
+        x, y = in_level(self._atlas, place, level)
         image = cv2.remap(self._atlas.image, x, y, cv2.INTER_LINEAR)
         return np.asarray(cv2.GaussianBlur(image, (3, 3), 0.55), dtype=np.uint8)
 
@@ -238,50 +262,3 @@ def _first_triangles(static: int, bodies: Sequence[Body]) -> list[int]:
     """Return the number of each body's first triangle."""
     counts = np.cumsum([static, *(len(body.quads) for body in bodies)])
     return [2 * int(count) for count in counts[:-1]]
-
-
-def _in_level(
-    atlas: Atlas, place: Float32Array, level: NDArray[np.uint8]
-) -> tuple[Float32Array, Float32Array]:
-    """Return the pixels x, y (H, W) of the atlas's image that show places of a level."""
-    tables = np.zeros((3, 256), dtype=np.float32)
-    tables[0, :LEVELS] = scales = np.exp2(-np.arange(LEVELS))
-    tables[1:, :LEVELS] = (atlas.offsets + 0.5 * scales[:, None] - 0.5).T
-    scale, left, top = (cv2.LUT(level, table) for table in tables)
-    return (
-        np.asarray(cv2.add(cv2.multiply(place[..., 0], scale), left), dtype=np.float32),
-        np.asarray(cv2.add(cv2.multiply(place[..., 1], scale), top), dtype=np.float32),
-    )
-
-
-def _lay_out(quads: Sequence[Quad]) -> tuple[Atlas, FloatArray, FloatArray]:
-    """Return the atlas, each quad's corners in it (N, 4, 2), and its pixels a metre (N,)."""
-    images = {id(quad.material.image): quad.material.image for quad in quads}
-    atlas, places = build_atlas(list(images.values()))
-    place_of = dict(zip(images, places, strict=True))
-    corners = np.empty((len(quads), 4, 2))
-    density = np.empty(len(quads))
-    for index, quad in enumerate(quads):
-        rows, columns = quad.material.image.shape[:2]
-        left, top, right, bottom = quad.window
-        unit = np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
-        corners[index] = place_of[id(quad.material.image)] - 0.5 + unit * (columns, rows)
-        across = np.linalg.norm(quad.corners[1] - quad.corners[0])
-        down = np.linalg.norm(quad.corners[3] - quad.corners[0])
-        shown = (right - left) * columns * (bottom - top) * rows
-        density[index] = np.sqrt(max(shown, 1.0) / max(float(across * down), 1e-8))
-    return atlas, corners, density
-
-
-def _light_corners(light: LightMap) -> FloatArray:
-    """Return each quad's corners (N, 4, 2) in the light map."""
-    unit = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-    return np.asarray(light.places[:, None] + unit * (light.sizes[:, None] - 1), dtype=np.float64)
-
-
-def _triangle_table(*corners: FloatArray) -> Float32Array:
-    """Return (3, 2 N, 4): the value at a triangle's first corner, and the steps to the others."""
-    both = np.concatenate(corners, axis=2)
-    triangles = both[:, [(0, 1, 2), (0, 2, 3)]].reshape(-1, 3, both.shape[2])
-    triangles[:, 1:] -= triangles[:, :1]
-    return np.ascontiguousarray(triangles.swapaxes(0, 1), dtype=np.float32)

@@ -9,6 +9,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     STRIP_M,
     Site,
     Style,
+    makes,
     material,
     paint,
 )
@@ -60,6 +61,7 @@ def site_tiles(site: Site) -> Image:
     return patterns.tiles(rng, (220, 300), (32, 32), ((222, 232, 234),), (150, 158, 162), 0.06)
 
 
+@makes("sink")
 def _basins(site: Site, stand: Stand, tiles: Image) -> None:
     rng = site.rng
     white, steel = paint((240, 242, 242)), paint((190, 194, 198))
@@ -76,6 +78,7 @@ def _basins(site: Site, stand: Stand, tiles: Image) -> None:
         basin.box((0.75, 0.86), (0, 0.09), (1.08, 1.27), paint((226, 228, 230)), front=soap)
 
 
+@makes("toilet_stall")
 def _stalls(site: Site, stand: Stand, length: float, colour: Colour) -> None:
     """Build a row of stalls with closed doors, one of them open with the toilet in sight."""
     rng = site.rng

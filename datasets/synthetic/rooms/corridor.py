@@ -16,6 +16,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     Site,
     Style,
     gaps,
+    makes,
     material,
     paint,
 )
@@ -118,6 +119,7 @@ def _stretch(
             x += float(rng.uniform(0.2, 0.45))
 
 
+@makes("fire_extinguisher")
 def _extinguisher(site: Site, stand: Stand) -> None:
     rng = site.rng
     red = patterns.tint((190, 30, 28), 0 * patterns.grain(rng, 128, 160))

@@ -10,6 +10,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     STRIP_M,
     Site,
     Style,
+    makes,
     material,
     paint,
 )
@@ -49,6 +50,7 @@ def furnish(site: Site) -> None:
     site.window(other, walls[other].length / 2, 1.5)
 
 
+@makes("elevator_doors")
 def _lifts(site: Site, stand: Stand, length: float, floor: int) -> None:
     rng = site.rng
     frame = material(patterns.steel(rng, 200, 200, (130, 134, 140)), shiny=True)
@@ -69,6 +71,7 @@ def _lifts(site: Site, stand: Stand, length: float, floor: int) -> None:
     stand.picture((middle - 0.14, middle + 0.14), (1.45, 1.83), 0.015, rules)
 
 
+@makes("plant")
 def _plant(site: Site, stand: Stand) -> None:
     rng = site.rng
     pot = material(patterns.stone(rng, 160, 320, (150, 96, 70), 1000))
@@ -78,6 +81,7 @@ def _plant(site: Site, stand: Stand) -> None:
     stand.prism((0, 0), (0.95, 1.45), (0.28, 0.05), leaf)
 
 
+@makes("bench")
 def _seating(site: Site, stand: Stand, length: float) -> None:
     """Place a bench under the window, a directory of firms and an ashtray beside it."""
     rng, middle = site.rng, length / 2

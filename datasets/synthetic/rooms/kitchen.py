@@ -11,6 +11,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     Site,
     Style,
+    makes,
     material,
     paint,
     strip,
@@ -76,6 +77,7 @@ def _splash(site: Site) -> Material:
     return material(finishes.bricks(rng, 140, 420, colours, 0.4))
 
 
+@makes("kitchen_counter")
 def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash: Material) -> None:
     """Build base and wall units, with an oven under a hob and a hood above them."""
     rng = site.rng
@@ -97,6 +99,7 @@ def _cooking_side(site: Site, stand: Stand, length: float, front: Front, splash:
     _things(site, stand, length, place)
 
 
+@makes("kitchen_counter")
 def _washing_side(site: Site, stand: Stand, length: float, front: Front, splash: Material) -> None:
     """Build base units with a sink in the middle of the worktop."""
     middle, steel = length / 2, paint((190, 194, 198))
@@ -165,11 +168,13 @@ def _microwave(site: Site) -> Material:
     return Material(image)
 
 
+@makes("refrigerator")
 def _fridge(site: Site, stand: Stand) -> None:
     image = kitchen.fridge(site.rng, 480, 180)
     stand.box((0, 0.68), (0, 0.62), (0, 1.85), paint((232, 232, 228)), front=Material(image))
 
 
+@makes("dining_table")
 def _table(site: Site, stand: Stand, splash: Material) -> None:
     """Place a table with two stools at the wall, a shelf with crockery and a calendar above it."""
     rng = site.rng

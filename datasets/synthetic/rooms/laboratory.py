@@ -8,6 +8,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     SCREEN_GLOW,
     Site,
     Style,
+    makes,
     material,
     paint,
     strip,
@@ -54,6 +55,7 @@ def furnish(site: Site) -> None:
     _beside_door(site)
 
 
+@makes("lab_bench")
 def _bench(site: Site, stand: Stand, length: float, colour: Colour, *, shelf: bool) -> None:
     rng = site.rng
     body, top = paint(colour), paint((64, 68, 72))
@@ -106,6 +108,7 @@ def _on_bench(site: Site, stand: Stand, wide: float) -> float:
     return 0.42
 
 
+@makes("instrument_rack")
 def _rack_side(site: Site, stand: Stand, length: float) -> None:
     """Stand racks of modules, gas cylinders and a cabinet along a wall, posters above."""
     rng, x = site.rng, 0.05

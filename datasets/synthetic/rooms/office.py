@@ -10,6 +10,7 @@ from roomgraph.datasets.synthetic.rooms.site import (
     SCREEN_GLOW,
     Site,
     Style,
+    makes,
     material,
     paint,
     strip,
@@ -111,6 +112,7 @@ def _span(site: Site, name: str) -> tuple[float, float]:
     return (0.25, length - 0.95) if name == "left" else (0.95, length - 0.25)
 
 
+@makes("desk")
 def _desk(site: Site, stand: Stand, width: float, top: Image, wood: Material, look: Theme) -> None:
     rng = site.rng
     dark = paint((44, 45, 50))
@@ -138,6 +140,7 @@ def _drawers(site: Site, wood: Material) -> Material:
     return Material(kitchen.drawers(wood.image[:170, :102], 3))
 
 
+@makes("chair")
 def _chair(site: Site, stand: Stand, look: Theme) -> None:
     fabric = material(patterns.cloth(site.rng, 120, 120, look.chair))
     dark = paint((40, 40, 44))
@@ -148,6 +151,7 @@ def _chair(site: Site, stand: Stand, look: Theme) -> None:
     stand.box((-0.03, 0.03), (-0.25, 0.25), (0.03, 0.08), dark)
 
 
+@makes("book_case")
 def _shelf(site: Site, stand: Stand, width: float, wood: Material, look: Theme) -> None:
     rng = site.rng
     for x in (0.0, width - 0.025):
@@ -163,6 +167,7 @@ def _shelf(site: Site, stand: Stand, width: float, wood: Material, look: Theme) 
     stand.box((0, width), (0, 0.32), (1.975, 2.0), wood)
 
 
+@makes("cabinet")
 def _cabinet(site: Site, stand: Stand, wood: Material) -> None:
     """Place a low cabinet with a printer on it."""
     leaf = Material(kitchen.cupboard(site.rng, wood.image[:180, :200], 0))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import wraps
+from typing import Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -11,6 +14,8 @@ from roomgraph.datasets.synthetic.rendering.lighting import EVENING, LAMP, WINDO
 from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Lamp, Material, Stand, Surfaces
 from roomgraph.datasets.synthetic.textures import patterns, signs
 
+P = ParamSpec("P")
+R = TypeVar("R")
 PIXELS_PER_M = 256
 STRIP_M = 3.2
 SCREEN_GLOW: Glow = (0.4, 0.0, 1.0, 0.9)
@@ -151,6 +156,20 @@ def gaps(room: Room, side: str, stand: Stand, plan: FloorPlan) -> list[tuple[flo
             along = float(abs(way[1 - axis]))
             found.append((along - door.width_m / 2, along + door.width_m / 2, door.height_m))
     return sorted(found)
+
+
+def makes(name: str) -> Callable[[Callable[Concatenate[Site, Stand, P], R]], Callable[..., R]]:
+    """Say of a function that builds at a stand which thing it makes."""
+
+    def decorate(build: Callable[Concatenate[Site, Stand, P], R]) -> Callable[..., R]:
+        @wraps(build)
+        def built(site: Site, stand: Stand, *args: P.args, **kwargs: P.kwargs) -> R:
+            with stand.surfaces.thing(name):
+                return build(site, stand, *args, **kwargs)
+
+        return built
+
+    return decorate
 
 
 def material(image: Image, pixels_per_m: float = PIXELS_PER_M, *, shiny: bool = False) -> Material:

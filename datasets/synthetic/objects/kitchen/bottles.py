@@ -50,9 +50,9 @@ def bottle(stand: Stand, look: Look) -> None:
     tall, wide = float(rng.uniform(0.27, 0.33)), float(rng.uniform(0.034, 0.042))
     plain = paint(glass)
     with stand.surfaces.thing("bottle"):
-        lathe(stand, (0, 0), [(wide, 0), (wide, 0.58 * tall)], Material(image), sides=8)
+        lathe(stand, (0, 0), [(wide, 0), (wide, 0.58 * tall)], Material(image), sides=16)
         neck = [(wide, 0.58 * tall), (0.42 * wide, 0.74 * tall), (0.36 * wide, 0.92 * tall)]
-        lathe(stand, (0, 0), neck, plain, sides=8)
+        lathe(stand, (0, 0), neck, plain, sides=16)
         top = [(0.42 * wide, 0.89 * tall), (0.42 * wide, tall)]
         lathe(stand, (0, 0), top, paint(patterns.pick(rng, ink.VIVID)), sides=6)
 

@@ -56,12 +56,12 @@ def cup(stand: Stand, look: Look) -> None:
     with stand.surfaces.thing("cup"):
         z = 0.0
         if tall < 0.08:
-            lathe(stand, (0, 0), [(0.04, 0), (0.075, 0.012)], china, sides=8)
+            lathe(stand, (0, 0), [(0.04, 0), (0.075, 0.012)], china, sides=16)
             z = 0.006
         profile = [(foot, z), (wide, z + 0.5 * tall), (wide, z + tall), (wide - 0.005, z + tall)]
-        lathe(stand, (0, 0), [*profile, (wide - 0.006, z + 0.75 * tall)], china, sides=8)
+        lathe(stand, (0, 0), [*profile, (wide - 0.006, z + 0.75 * tall)], china, sides=16)
         tea = paint((72, 40, 22) if rng.random() < 0.6 else (236, 232, 224))
-        lathe(stand, (0, 0), [(wide - 0.006, z + 0.755 * tall)] * 2, tea, sides=8)
+        lathe(stand, (0, 0), [(wide - 0.006, z + 0.755 * tall)] * 2, tea, sides=16)
         side = stand.at(0, 0, 0, float(rng.uniform(-0.7, 0.7)))
         _loop(side, wide - 0.004, (z + 0.22 * tall, z + 0.85 * tall), 0.028, 0.005, china)
 
@@ -69,7 +69,7 @@ def cup(stand: Stand, look: Look) -> None:
 def _dish(stand: Stand, wide: float, tall: float, china: Material) -> None:
     outside = [(0.45 * wide, 0.0), (0.8 * wide, 0.4 * tall), (wide, tall)]
     inside = [(0.95 * wide, tall), (0.74 * wide, 0.45 * tall), (0.4 * wide, 0.12 * tall)]
-    lathe(stand, (0, 0), [*outside, *inside], china, sides=9)
+    lathe(stand, (0, 0), [*outside, *inside], china, sides=16)
 
 
 def bowl(stand: Stand, look: Look) -> None:
