@@ -56,7 +56,8 @@ class Arranger:
                     smaller = replace(item, model=item.instead, fit=None)
                     if not item.instead or not self.place(smaller, rng, NEEDED_TRIES):
                         missing.append(item.model)
-        return missing
+        there = {placed.piece.model for placed in self.plot.placed}
+        return [model for model in missing if model not in there]
 
     def _count(self, item: Item, rng: np.random.Generator) -> int:
         """Draw how many of an item a room gets: more in a large one, if it may have several."""
@@ -121,7 +122,7 @@ class Arranger:
             x = ends[0] + float(share) * (ends[1] - ends[0])
             if offset:
                 stand = self.plot.wall_stand(number, x).at(0, offset + 0.02)
-                if self.plot.fits(piece, stand):
+                if self.plot.fits(piece, stand) and not self.plot.hides_window(piece, number, x):
                     return Placed(piece, stand)
             elif self.plot.fits_at_wall(piece, number, x):
                 return Placed(piece, self.plot.wall_stand(number, x), number, x)

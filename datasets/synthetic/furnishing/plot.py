@@ -113,7 +113,8 @@ class Plot:
     def fits(self, piece: Piece, stand: Stand, margin: float = 0.0) -> bool:
         """Whether a piece may be set down at a stand: on free floor, leaving a way round it."""
         shrunk = self._drawn(outline(piece, stand, -0.02))
-        if not (self._inside[shrunk] > 0).all():
+        # An outline that is far outside the room marks no cell at all.
+        if not shrunk.any() or not (self._inside[shrunk] > 0).all():
             return False
         solids = solid_outlines(piece, stand)
         if not solids:  # It lies flat: one walks over it.
@@ -143,6 +144,14 @@ class Plot:
         if any(low < b and a < high and foot < d and c < head for a, b, c, d in taken):
             return False
         return foot >= LOW_M or self.fits(piece, self.wall_stand(number, x))
+
+    def hides_window(self, piece: Piece, number: int, x: float) -> bool:
+        """Whether a piece before a wall, its middle at x along it, would stand before a window."""
+        low, high = x + float(piece.low[0]), x + float(piece.high[0])
+        return any(
+            low < window.end and window.begin < high and float(piece.high[2]) > window.sill
+            for window in self.walls[number].windows
+        )
 
     def wall_stand(self, number: int, x: float) -> Stand:
         """Return where a piece stands with its back to a wall."""

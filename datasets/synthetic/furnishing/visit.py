@@ -17,6 +17,8 @@ from roomgraph.datasets.synthetic.furnishing.programmes import (
     Where,
 )
 
+REPLACING_TRIES = 5
+
 
 def change(before: Arranger, after: Arranger, rng: np.random.Generator) -> None:
     """Arrange an empty plot as another one, with the changes that a time brings.
@@ -38,7 +40,10 @@ def change(before: Arranger, after: Arranger, rng: np.random.Generator) -> None:
     for placed in moved:
         where: Where = "wall" if placed.wall >= 0 else "free"
         again = after.somewhere(placed.piece, Item(placed.piece.model, where), rng)
-        after.plot.put(placed if again is None else again)
+        if again is not None:
+            after.plot.put(again)
+        elif after.plot.fits(placed.piece, placed.stand):
+            after.plot.put(placed)
     if before.plot.room.label in ("stairwell", "elevator"):
         return
     for _ in range(int(rng.integers(0, 3))):
@@ -46,9 +51,12 @@ def change(before: Arranger, after: Arranger, rng: np.random.Generator) -> None:
 
 
 def _replaced(placed: Placed, after: Arranger, rng: np.random.Generator) -> Placed:
-    """Return another piece of the same model in its place, if one of about its size is drawn."""
-    other = make_piece(placed.piece.model, rng, after.look)
-    bounds = np.abs(other.low - placed.piece.low), np.abs(other.high - placed.piece.high)
-    if max(float(b.max()) for b in bounds) > 0.25:
+    """Return another piece of the same model in its place, if one that is no larger is drawn."""
+    for _ in range(REPLACING_TRIES):
+        other = make_piece(placed.piece.model, rng, after.look)
+        grown = np.maximum(placed.piece.low - other.low, other.high - placed.piece.high)
+        if float(grown.max()) < 0.03:
+            break
+    else:
         return placed
     return Placed(other, placed.stand, placed.wall, placed.x)

@@ -200,17 +200,24 @@ def shared_wall(a: Rectangle, b: Rectangle) -> Shared | None:
     return None
 
 
-def row(rng: np.random.Generator, begin: float, end: float) -> list[tuple[float, float]]:
-    """Cut a stretch into the widths of rooms with walls between them."""
+def row(
+    rng: np.random.Generator, begin: float, end: float, least: int = 1
+) -> list[tuple[float, float]]:
+    """Cut a stretch into the widths of rooms with walls between them, at least so many."""
     spans: list[tuple[float, float]] = []
     start = begin
     while True:
         low, high = WIDTHS_M[int(rng.choice(3, p=WIDTH_ODDS))]
         stop = start + float(rng.uniform(low, high))
         if end - stop < SMALLEST_M + WALL_M:
-            return [*spans, (start, end)]
+            spans.append((start, end))
+            break
         spans.append((start, stop))
         start = stop + WALL_M
+    if len(spans) < least:  # Large rooms only: too few of them.
+        step = (end - begin + WALL_M) / least
+        spans = [(begin + i * step, begin + (i + 1) * step - WALL_M) for i in range(least)]
+    return spans
 
 
 def depth(rng: np.random.Generator, most: float = 6.0) -> float:

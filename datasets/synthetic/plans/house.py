@@ -16,7 +16,7 @@ OTHERS = ("bedroom", "store_room", "office")
 def plan(rng: np.random.Generator, levels: int) -> FloorPlan:
     """Draw a hall with rooms on both sides, living room and dining room at its ends."""
     draft = Draft(rng, levels)
-    hall = float(rng.uniform(1.5, 2.6)), float(rng.uniform(7.7, 9.0))
+    hall = float(rng.uniform(1.5, 2.6)), float(rng.uniform(7.8, 9.0))
     draft.core(-WALL_M - STAIRS_M[0], 0.0, 1)
     for level in range(levels):
         _draw_level(draft, level, hall)
@@ -27,19 +27,18 @@ def _draw_level(draft: Draft, level: int, size: tuple[float, float]) -> None:
     rng, (wide, long) = draft.rng, size
     hall = draft.room("hall", Rectangle(0, 0, wide, long), level)
     draft.join_core(level)
+    least = len(UPSTAIRS) if level else len(DOWNSTAIRS)
     sides = []
-    for a, b in row(rng, 0, long):
+    for a, b in row(rng, 0, long, least):
         sides.append(Rectangle(wide + WALL_M, a, wide + WALL_M + depth(rng), b))
     if draft.levels == 1:
-        for a, b in row(rng, 0, long):
+        for a, b in row(rng, 0, long, least):
             sides.append(Rectangle(-WALL_M - depth(rng), a, -WALL_M, b))
     if level == 0:
         day_rooms = _day_rooms(draft, hall)
         needed = BUNGALOW if draft.levels == 1 else DOWNSTAIRS
     else:
         day_rooms, needed = [], UPSTAIRS
-    if len(sides) < len(needed):  # A row of large rooms only: the last one is halved.
-        sides[-1:] = _halves(sides[-1])
     for kind, cell in zip(deal(rng, needed, OTHERS, len(sides)), sides, strict=True):
         room = draft.room(kind, cell, level)
         draft.join(hall, room)
@@ -54,7 +53,8 @@ def _day_rooms(draft: Draft, hall: Room) -> list[Room]:
     base = r.y1 + WALL_M
     shift = float(rng.uniform(0.0, 0.5))  # One of the two has all of the hall's end.
     split = r.x0 - shift - WALL_M if rng.random() < 0.5 else r.x1 + shift
-    left, right = r.x0 - float(rng.uniform(2.6, 4.2)), r.x1 + float(rng.uniform(2.6, 4.2))
+    left = r.x0 - shift - float(rng.uniform(2.6, 4.2))
+    right = r.x1 + shift + float(rng.uniform(2.6, 4.2))
     is_open = bool(rng.random() < 0.5)
     gap = 0.0 if is_open else WALL_M
     tall = float(rng.uniform(3.2, 5.5))
@@ -68,11 +68,3 @@ def _day_rooms(draft: Draft, hall: Room) -> list[Room]:
     draft.join(hall, wider)
     draft.join(rooms[0], rooms[1], "open" if is_open else "passage")
     return rooms
-
-
-def _halves(r: Rectangle) -> list[Rectangle]:
-    middle = (r.y0 + r.y1) / 2
-    return [
-        Rectangle(r.x0, r.y0, r.x1, middle - WALL_M / 2),
-        Rectangle(r.x0, middle + WALL_M / 2, r.x1, r.y1),
-    ]

@@ -38,7 +38,8 @@ def _draw_level(draft: Draft, level: int, size: tuple[float, float]) -> None:
         draft.join(areas[a], areas[b], "open")
     draft.join_core(level)
     rooms = [
-        Rectangle(a, deep + WALL_M, b, deep + WALL_M + depth(rng)) for a, b in row(rng, 0, wide)
+        Rectangle(a, deep + WALL_M, b, deep + WALL_M + depth(rng))
+        for a, b in row(rng, 0, wide, len(NEEDED))
     ]
     kinds = deal(rng, NEEDED, OTHERS, len(rooms))
     for kind, cell in zip(kinds, rooms, strict=True):

@@ -33,8 +33,8 @@ def _draw_level(
     floor = Rectangle(-WALL_M - hall_width, 0, -WALL_M, top + rows[1])
     hall = draft.room("hall", floor, level)
     draft.join_core(level)
-    lower = [Rectangle(a, 0, b, rows[0]) for a, b in row(rng, 0, wide)]
-    upper = [Rectangle(a, top, b, top + rows[1]) for a, b in row(rng, 0, wide)]
+    lower = [Rectangle(a, 0, b, rows[0]) for a, b in row(rng, 0, wide, 3)]
+    upper = [Rectangle(a, top, b, top + rows[1]) for a, b in row(rng, 0, wide, 3)]
     kinds = deal(rng, NEEDED, OTHERS, len(lower) + len(upper))
     rooms = [draft.room(k, c, level) for k, c in zip(kinds, lower + upper, strict=True)]
     below, above = rooms[: len(lower)], rooms[len(lower) :]

@@ -9,6 +9,9 @@ import numpy as np
 from roomgraph.datasets.synthetic.plans.layout import WALL_M, Doorway, FloorPlan, Room
 from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Stand, Surfaces
 
+# What lies this far behind a wall tells whether it is an outer one.
+BEHIND_M = 0.6
+
 
 @dataclass(frozen=True, slots=True)
 class Gap:
@@ -62,8 +65,9 @@ def room_faces(room: Room, plan: FloorPlan, surfaces: Surfaces) -> list[Face]:
             if room.key in door.rooms and (gap := _gap(door, stand, length)) is not None
         ]
         gaps.sort(key=lambda gap: gap.begin)
-        outside = (a + b) / 2 + np.array([along[1], -along[0]]) * 0.6
-        faces.append(Face(stand, length, tuple(gaps), _is_free(outside, room, plan)))
+        away = np.array([along[1], -along[0]]) * BEHIND_M
+        behind = a + np.linspace(0.0, 1.0, 2 + int(length / 0.4))[:, None] * (b - a) + away
+        faces.append(Face(stand, length, tuple(gaps), _is_free(behind, room, plan)))
     return faces
 
 
@@ -80,4 +84,4 @@ def _gap(door: Doorway, stand: Stand, length: float) -> Gap | None:
 
 def _is_free(xy: FloatArray, room: Room, plan: FloorPlan) -> bool:
     cells = [other.floor for other in plan.rooms if other.level == room.level]
-    return all(float(cell.distance(xy[None])[0]) > 0 for cell in cells)
+    return all(float(cell.distance(xy).min()) > 0 for cell in cells)
