@@ -22,15 +22,8 @@ from roomgraph.datasets.synthetic.plans.layout import (
     Room,
 )
 from roomgraph.datasets.synthetic.plans.registry import PLANS
-from roomgraph.datasets.synthetic.rendering.mesh import (
-    Image,
-    Lamp,
-    Material,
-    Quad,
-    Stand,
-    Surfaces,
-    Thing,
-)
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Lamp, Material, Quad, Surfaces, Thing
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms import (
     bathroom,
     corridor,

@@ -11,7 +11,8 @@ from roomgraph.datasets.synthetic.furnishing.plot import Placed, Plot, free_span
 from roomgraph.datasets.synthetic.furnishing.programmes import PROGRAMMES, SMALL, Item
 from roomgraph.datasets.synthetic.objects.catalogue import package_of
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 TRIES, NEEDED_TRIES = 18, 6
 # Larger rooms than this have more of what they may have several of.

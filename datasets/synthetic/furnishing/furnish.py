@@ -14,7 +14,8 @@ from roomgraph.datasets.synthetic.furnishing.plot import Plot, Wall
 from roomgraph.datasets.synthetic.furnishing.visit import change
 from roomgraph.datasets.synthetic.objects.look import draw_look
 from roomgraph.datasets.synthetic.plans.layout import FloorPlan, Room
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.faces import room_faces
 from roomgraph.datasets.synthetic.structure.lamps import hang_lamps
 from roomgraph.datasets.synthetic.structure.shell import raise_wall

@@ -8,13 +8,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.catalogue import build_model
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import (
-    FloatArray,
-    Quad,
-    Stand,
-    Surfaces,
-    Thing,
-)
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Quad, Surfaces, Thing
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 # How a piece is built: its stand's axes are then the world's, x mirrored.
 FACING = np.pi / 2

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from roomgraph.datasets.synthetic.furnishing.piece import Piece, outline, solid_outlines
 from roomgraph.datasets.synthetic.plans.layout import Point, Room
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.faces import Face
 from roomgraph.datasets.synthetic.structure.windows import Window
 

@@ -80,7 +80,7 @@ from roomgraph.datasets.synthetic.objects.service import (
     suitcase,
     vending,
 )
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 Model = Callable[..., None]
 # The files with models, a line or two a package: bathroom to service.

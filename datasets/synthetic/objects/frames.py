@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import Point, block, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 
 def pipe(stand: Stand, points: Sequence[Point], radius: float, material: Material) -> None:

@@ -7,7 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Quad
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.vectors import unit
 
 Point = tuple[float, float, float]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     STRIP_M,

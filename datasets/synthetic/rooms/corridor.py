@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M, FloorPlan
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     SIGN_GLOW,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     SIGN_GLOW,

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import cv2
 
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     Site,

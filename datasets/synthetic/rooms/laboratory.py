@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     SCREEN_GLOW,

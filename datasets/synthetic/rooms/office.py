@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import (
     PIXELS_PER_M,
     SCREEN_GLOW,

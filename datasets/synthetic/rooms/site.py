@@ -11,7 +11,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M, FloorPlan, Room
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING, LAMP, WINDOW
-from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Lamp, Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Lamp, Material, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns, signs
 
 P = ParamSpec("P")

@@ -7,14 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import Doorway, FloorPlan
-from roomgraph.datasets.synthetic.rendering.mesh import (
-    FloatArray,
-    Image,
-    Material,
-    Stand,
-    Surfaces,
-)
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Image, Material, Surfaces
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.moving import Stiff, smooth, turned
 from roomgraph.datasets.synthetic.textures import homes, patterns, signs
 from roomgraph.datasets.synthetic.textures.patterns import Colour

@@ -8,15 +8,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import Doorway, FloorPlan, Shaft
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING, LAMP
-from roomgraph.datasets.synthetic.rendering.mesh import (
-    FloatArray,
-    Lamp,
-    Material,
-    Quad,
-    Stand,
-    Surfaces,
-)
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Lamp, Material, Quad, Surfaces
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.moving import Stiff, shifted, smooth
 from roomgraph.datasets.synthetic.textures import patterns, signs
 

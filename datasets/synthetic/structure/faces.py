@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import WALL_M, Doorway, FloorPlan, Room
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 # What lies this far behind a wall tells whether it is an outer one.
 BEHIND_M = 0.6

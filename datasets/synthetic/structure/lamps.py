@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import Room
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING, LAMP
-from roomgraph.datasets.synthetic.rendering.mesh import Glow, Lamp, Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Lamp, Material, Surfaces
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 
 # Rooms without daylight: their lamps are as bright by day as windows are elsewhere.

@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M, WALL_M, Doorway, FloorPlan
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import STRIP_M, Site, Style, gaps
 from roomgraph.datasets.synthetic.textures import patterns
 

@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.plans.draft import LANDING_M
 from roomgraph.datasets.synthetic.plans.layout import FloorPlan, Rectangle
-from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import FloatArray, Material, Surfaces
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 RISE_M = 0.175
 WELL_M = 0.12

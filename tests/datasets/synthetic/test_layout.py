@@ -14,7 +14,8 @@ from roomgraph.datasets.synthetic.building import Building, build
 from roomgraph.datasets.synthetic.motion.walk import find_way, walk
 from roomgraph.datasets.synthetic.plans.corridor import plan_floor
 from roomgraph.datasets.synthetic.plans.layout import WALL_M, Rectangle
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from tests.datasets.synthetic.clearance import clearance
 

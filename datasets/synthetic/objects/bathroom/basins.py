@@ -12,8 +12,9 @@ from roomgraph.datasets.synthetic.objects.bathroom.shared import (
     shampoo,
 )
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, loft, ring, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import bathroom, ink, kitchen, patterns
 
 __all__ = ["double_basin", "washbasin"]

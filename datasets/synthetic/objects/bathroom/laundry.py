@@ -12,8 +12,9 @@ from roomgraph.datasets.synthetic.objects.bathroom.shared import (
     shampoo,
 )
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
 from roomgraph.datasets.synthetic.rendering.shapes import cushion, loft, ring, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import finishes, ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Generator
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.kitchen.bottles import flask
 from roomgraph.datasets.synthetic.objects.look import paint
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.bathroom.shared import CHROME, PALE, WHITE
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, lathe, loft, ring, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import bathroom, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour
 

@@ -6,8 +6,9 @@ import cv2
 
 from roomgraph.datasets.synthetic.objects.bathroom.shared import CHROME, TOWELS, WHITE
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 
 __all__ = ["bath_mat", "towel_rail"]

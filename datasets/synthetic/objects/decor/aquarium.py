@@ -7,7 +7,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.decor.colours import DARK, GREENS
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.decor.colours import DARK
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import kitchen
 from roomgraph.datasets.synthetic.textures.patterns import pick
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING
-from roomgraph.datasets.synthetic.rendering.mesh import Glow, Lamp, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Lamp, Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 from roomgraph.datasets.synthetic.textures.patterns import plain
 

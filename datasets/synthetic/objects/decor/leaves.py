@@ -7,8 +7,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.decor.colours import WHITE
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad
 from roomgraph.datasets.synthetic.rendering.shapes import Point, lathe
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import finishes, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

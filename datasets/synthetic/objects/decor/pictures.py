@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.decor.colours import DARK, STEEL, WHITE
 from roomgraph.datasets.synthetic.objects.look import WOODS, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
 from roomgraph.datasets.synthetic.rendering.shapes import block
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick
 

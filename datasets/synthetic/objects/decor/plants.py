@@ -8,8 +8,9 @@ import numpy as np
 from roomgraph.datasets.synthetic.objects.decor.colours import GREENS
 from roomgraph.datasets.synthetic.objects.decor.leaves import draw_leaf, kite, put_pot, turned
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick, plain
 

@@ -6,7 +6,8 @@ from roomgraph.datasets.synthetic.objects.decor.colours import DARK, WHITE
 from roomgraph.datasets.synthetic.objects.decor.pictures import photo_frame
 from roomgraph.datasets.synthetic.objects.decor.plants import small_plant
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, office
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

@@ -8,8 +8,9 @@ import cv2
 
 from roomgraph.datasets.synthetic.objects.decor.colours import DARK
 from roomgraph.datasets.synthetic.objects.look import FABRICS, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick, plain
 

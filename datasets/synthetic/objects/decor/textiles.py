@@ -8,8 +8,9 @@ import cv2
 import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import FABRICS, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick, plain
 

@@ -8,8 +8,9 @@ import cv2
 import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Span, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, tube
+from roomgraph.datasets.synthetic.rendering.stand import Span, Stand
 from roomgraph.datasets.synthetic.textures import patterns
 
 __all__ = ["bed"]

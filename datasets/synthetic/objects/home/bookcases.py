@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.home.laid import GLAZES, put_fruit_bowl, put_vase
 from roomgraph.datasets.synthetic.objects.look import FABRICS, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Span, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Span, Stand
 from roomgraph.datasets.synthetic.textures import ink, kitchen, office, patterns
 
 __all__ = ["bookcase", "sideboard"]

@@ -9,8 +9,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.frames import panel, pipe
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from roomgraph.datasets.synthetic.objects.home.laid import put_vase
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING
-from roomgraph.datasets.synthetic.rendering.mesh import Lamp, Material, Span, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Lamp, Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Span, Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["dresser", "nightstand"]

@@ -8,8 +8,9 @@ import numpy as np
 from roomgraph.datasets.synthetic.objects.home.bookcases import stand_photo
 from roomgraph.datasets.synthetic.objects.home.laid import put_vase
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import finishes, patterns
 
 __all__ = ["fireplace"]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import SCREEN_GLOW, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, office, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour
 

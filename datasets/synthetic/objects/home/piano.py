@@ -5,8 +5,9 @@ from __future__ import annotations
 from roomgraph.datasets.synthetic.objects.home.laid import put_fruit_bowl, put_vase
 from roomgraph.datasets.synthetic.objects.home.television import BLACK
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import cushion, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["piano"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.frames import panel, pipe
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
 from roomgraph.datasets.synthetic.rendering.shapes import cushion, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 __all__ = ["armchair", "sofa"]
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.frames import pipe
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
 from roomgraph.datasets.synthetic.rendering.shapes import cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 __all__ = ["bench", "stool"]
 

@@ -20,8 +20,9 @@ from roomgraph.datasets.synthetic.objects.home.laid import (
 )
 from roomgraph.datasets.synthetic.objects.home.tables import put_legs
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Span, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Span, Stand
 from roomgraph.datasets.synthetic.textures import patterns
 
 __all__ = ["dining_table", "meeting_table", "round_table"]

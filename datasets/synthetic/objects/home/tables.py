@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.home.laid import put_fruit_bowl, put_vase
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink
 
 __all__ = ["coffee_table", "side_table"]

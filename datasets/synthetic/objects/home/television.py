@@ -8,7 +8,8 @@ import numpy as np
 from roomgraph.datasets.synthetic.objects.home.bookcases import book_row, slanting_legs
 from roomgraph.datasets.synthetic.objects.home.laid import put_vase
 from roomgraph.datasets.synthetic.objects.look import SCREEN_GLOW, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["tv_stand"]

@@ -7,8 +7,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.home.chests import front_leaf
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Span, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, tube
+from roomgraph.datasets.synthetic.rendering.stand import Span, Stand
 from roomgraph.datasets.synthetic.textures import bathroom, patterns
 
 __all__ = ["standing_mirror", "wardrobe"]

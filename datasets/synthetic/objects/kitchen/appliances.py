@@ -6,8 +6,9 @@ import cv2
 
 from roomgraph.datasets.synthetic.objects.kitchen.shared import DARK, STEEL
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Generator
 

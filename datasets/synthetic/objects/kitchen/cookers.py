@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.kitchen.shared import CASES, DARK, STEEL
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, kitchen, patterns
 
 __all__ = ["free_cooker"]

@@ -8,8 +8,9 @@ from roomgraph.datasets.synthetic.objects.kitchen.shared import DARK, STEEL
 from roomgraph.datasets.synthetic.objects.kitchen.units import Fit, draw_fit, unit_front
 from roomgraph.datasets.synthetic.objects.kitchen.worktop import draw_things, put_thing
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, loft, ring, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import kitchen
 from roomgraph.datasets.synthetic.textures.patterns import Generator
 

@@ -6,8 +6,9 @@ from roomgraph.datasets.synthetic.objects.kitchen.crockery import cup, fruit_bow
 from roomgraph.datasets.synthetic.objects.kitchen.shared import DARK
 from roomgraph.datasets.synthetic.objects.kitchen.units import draw_fit, unit_front
 from roomgraph.datasets.synthetic.objects.look import Look
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 __all__ = ["kitchen_island"]
 

@@ -9,8 +9,9 @@ import cv2
 from roomgraph.datasets.synthetic.objects.kitchen.crockery import cup
 from roomgraph.datasets.synthetic.objects.kitchen.shared import CASES, DARK, STEEL
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, loft, ring, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["coffee_machine", "kettle", "microwave", "toaster"]

@@ -12,8 +12,8 @@ from roomgraph.datasets.synthetic.objects.kitchen.small_appliances import (
     toaster,
 )
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
 from roomgraph.datasets.synthetic.rendering.shapes import block, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures.patterns import Generator
 
 

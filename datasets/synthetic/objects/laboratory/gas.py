@@ -6,8 +6,9 @@ from itertools import pairwise
 
 from roomgraph.datasets.synthetic.objects.laboratory.shared import DARK, PALE, STEEL
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.ink import VIVID
 from roomgraph.datasets.synthetic.textures.patterns import Colour

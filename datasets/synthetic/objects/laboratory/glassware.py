@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.laboratory.shared import PALE
 from roomgraph.datasets.synthetic.objects.look import paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, instruments, patterns
 from roomgraph.datasets.synthetic.textures import laboratory as drawn
 from roomgraph.datasets.synthetic.textures.ink import VIVID

@@ -7,8 +7,9 @@ import cv2
 from roomgraph.datasets.synthetic.objects.laboratory.glassware import put_flasks
 from roomgraph.datasets.synthetic.objects.laboratory.shared import DARK, PALE, STEEL, TOPS, UNITS
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import laboratory as drawn
 from roomgraph.datasets.synthetic.textures import patterns
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.laboratory.shared import DARK, GLASS, PALE, STEEL
 from roomgraph.datasets.synthetic.objects.look import SCREEN_GLOW, Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, instruments, patterns
 from roomgraph.datasets.synthetic.textures.ink import VIVID
 

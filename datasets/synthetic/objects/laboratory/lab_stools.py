@@ -8,8 +8,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.laboratory.shared import DARK, STEEL
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Stand
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 __all__ = ["lab_stool"]
 

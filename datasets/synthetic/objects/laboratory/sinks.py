@@ -8,8 +8,9 @@ import cv2
 
 from roomgraph.datasets.synthetic.objects.laboratory.shared import DARK, GLASS, PALE, TOPS, UNITS
 from roomgraph.datasets.synthetic.objects.look import Look, paint
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import finishes, ink, kitchen, patterns
 
 __all__ = ["lab_sink"]

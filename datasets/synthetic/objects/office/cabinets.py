@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.look import FABRICS, Look, paint
 from roomgraph.datasets.synthetic.objects.office.shared import CASES, DARK, astray
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, office, patterns
 from roomgraph.datasets.synthetic.textures.ink import VIVID
 

@@ -9,8 +9,9 @@ import numpy as np
 from roomgraph.datasets.synthetic.objects.look import SCREEN_GLOW, Look, paint
 from roomgraph.datasets.synthetic.objects.office.shared import DARK, PALE
 from roomgraph.datasets.synthetic.rendering.lighting import EVENING
-from roomgraph.datasets.synthetic.rendering.mesh import Lamp, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Lamp, Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import office, patterns
 from roomgraph.datasets.synthetic.textures.ink import VIVID
 from roomgraph.datasets.synthetic.textures.patterns import Colour

@@ -13,7 +13,8 @@ from roomgraph.datasets.synthetic.objects.office.desk_things import (
 )
 from roomgraph.datasets.synthetic.objects.office.office_chairs import desk_chair
 from roomgraph.datasets.synthetic.objects.office.shared import PALE, astray
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink
 
 __all__ = ["desk", "desk_pair"]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.office.shared import DARK, PALE
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["paper_shredder", "water_dispenser"]

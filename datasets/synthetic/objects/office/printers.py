@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import SCREEN_GLOW, Look, paint
 from roomgraph.datasets.synthetic.objects.office.shared import DARK, PALE, astray
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, office, patterns
 from roomgraph.datasets.synthetic.textures.ink import VIVID
 

@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import FABRICS, Look, paint
 from roomgraph.datasets.synthetic.objects.office.shared import astray
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 
 __all__ = ["coat_stand", "partition_screen", "waste_bin"]

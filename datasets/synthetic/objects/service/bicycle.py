@@ -8,8 +8,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.service.stock import DARK
-from roomgraph.datasets.synthetic.rendering.mesh import Quad, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Quad
 from roomgraph.datasets.synthetic.rendering.shapes import block, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink
 from roomgraph.datasets.synthetic.textures.patterns import pick
 

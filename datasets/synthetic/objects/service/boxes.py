@@ -6,8 +6,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look
 from roomgraph.datasets.synthetic.objects.service.stock import put_carton, put_crate
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import cushion
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick
 

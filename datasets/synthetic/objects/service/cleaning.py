@@ -9,8 +9,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.service.stock import DARK, STEEL, YELLOW, Span, join
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import Point, block, cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, laboratory, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.service.panels import DARK, STEEL, WHITE, hang_panel
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import block, cushion, lathe, tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, signs
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

@@ -6,7 +6,8 @@ import cv2
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.service.panels import DARK, WHITE
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from roomgraph.datasets.synthetic.rendering.mesh import Glow, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Glow, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures.patterns import Colour
 
 WHITE, STEEL, DARK = (238, 238, 234), (170, 174, 178), (36, 36, 40)

@@ -12,7 +12,8 @@ from roomgraph.datasets.synthetic.objects.service.panels import (
     WHITE,
     hang_panel,
 )
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink, office, signs
 from roomgraph.datasets.synthetic.textures.patterns import Colour, pick, plain
 

@@ -10,8 +10,9 @@ from roomgraph.datasets.synthetic.objects.service.stock import (
     put_crate,
     put_toolbox,
 )
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Material
 from roomgraph.datasets.synthetic.rendering.shapes import tube
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import laboratory, patterns
 from roomgraph.datasets.synthetic.textures.patterns import pick
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from roomgraph.datasets.synthetic.objects.look import Look, paint
 from roomgraph.datasets.synthetic.objects.service.panels import DARK, SIGN_GLOW, WHITE
-from roomgraph.datasets.synthetic.rendering.mesh import Image, Material, Stand
+from roomgraph.datasets.synthetic.rendering.mesh import Image, Material
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.textures import ink
 from roomgraph.datasets.synthetic.textures.kitchen import packet
 from roomgraph.datasets.synthetic.textures.patterns import pick, plain

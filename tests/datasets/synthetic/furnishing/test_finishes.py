@@ -17,7 +17,8 @@ from roomgraph.datasets.synthetic.furnishing.piece import (
 from roomgraph.datasets.synthetic.furnishing.plot import Placed, Plot, Wall, free_spans
 from roomgraph.datasets.synthetic.objects.look import draw_look
 from roomgraph.datasets.synthetic.plans.layout import WALL_M, Doorway, FloorPlan, Rectangle, Room
-from roomgraph.datasets.synthetic.rendering.mesh import Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.rooms.site import PIXELS_PER_M, STRIP_M
 from roomgraph.datasets.synthetic.structure.faces import room_faces
 from roomgraph.datasets.synthetic.structure.windows import Window

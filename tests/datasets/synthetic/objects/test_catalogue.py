@@ -11,7 +11,8 @@ from roomgraph.datasets.synthetic.furnishing import furnish, programmes
 from roomgraph.datasets.synthetic.furnishing.piece import make_piece
 from roomgraph.datasets.synthetic.objects.catalogue import build_model, models, package_of
 from roomgraph.datasets.synthetic.objects.look import draw_look
-from roomgraph.datasets.synthetic.rendering.mesh import Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 
 pytestmark = pytest.mark.slow
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from roomgraph.datasets.synthetic.plans.layout import WALL_M, Doorway, FloorPlan, Rectangle, Room
-from roomgraph.datasets.synthetic.rendering.mesh import Material, Stand, Surfaces
+from roomgraph.datasets.synthetic.rendering.mesh import Material, Surfaces
+from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.faces import Face, room_faces
 from roomgraph.datasets.synthetic.structure.shell import raise_wall
 from roomgraph.datasets.synthetic.structure.windows import build_window, place_windows
