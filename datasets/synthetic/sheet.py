@@ -13,7 +13,7 @@ from roomgraph.datasets.camera import Intrinsics
 from roomgraph.datasets.synthetic.motion.free_space import free_space
 from roomgraph.datasets.synthetic.motion.walk import camera_poses
 from roomgraph.datasets.synthetic.plans.layout import Room
-from roomgraph.datasets.synthetic.rendering.eye import Eye
+from roomgraph.datasets.synthetic.rendering.eye import Eye, pinhole
 from roomgraph.datasets.synthetic.rendering.mesh import Image, Thing
 from roomgraph.datasets.synthetic.rendering.raycast import Hits
 from roomgraph.datasets.synthetic.rendering.renderer import Renderer, Sight
@@ -25,7 +25,9 @@ from roomgraph.datasets.synthetic.world import World
 FloatArray = NDArray[np.float64]
 VIEW_PX, VIEW_FOCAL = (360, 270), 0.62
 EYE_M, LOOK_DOWN_DEG = 1.5, 12.0
-CANDIDATES = 6
+CANDIDATES = 8
+# What is looked at to choose a view is this much smaller.
+SMALLER = 4
 # The levels are cut at this height, and drawn at so many pixels a metre.
 CUT_M, PLAN_PX_PER_M = 2.1, 42
 # A thing counts for at most so much: the root of its pixels, one in sixteen being looked at.
@@ -33,7 +35,8 @@ MOST_OF_ONE = 16.0
 MARGIN_PX, TITLE_PX, COLUMNS = 10, 22, 3
 # One also looks a little to the left and to the right of the room's middle.
 ASIDE = tuple(
-    np.array([(np.cos(a), -np.sin(a)), (np.sin(a), np.cos(a))]) for a in np.deg2rad((-28, 28))
+    np.array([(np.cos(a), -np.sin(a)), (np.sin(a), np.cos(a))])
+    for a in np.deg2rad((-50, -25, 25, 50))
 )
 LIGHTS: tuple[Light, Light] = ("day", "night")
 
@@ -94,7 +97,8 @@ def _viewpoint(world: World, renderer: Renderer, room: Room) -> tuple[float, Flo
         for target in (middle, *(place + (middle - place) @ turn.T for turn in ASIDE))
     ]
     inside = [thing for thing in world.building.things if _is_in(thing, world, room)]
-    shown = [_shown(renderer, inside, T) for T in poses]
+    eye = pinhole(renderer.intrinsics.resized(VIEW_PX[0] // SMALLER, VIEW_PX[1] // SMALLER))
+    shown = [_shown(renderer, eye, inside, room, T) for T in poses]
     return 0.0, poses[int(np.argmax(shown))]
 
 
@@ -128,19 +132,22 @@ def _before_elevator(world: World) -> tuple[float, FloatArray]:
     return ride.closing_s - 0.2 * DOORS_S, T
 
 
-def _shown(renderer: Renderer, things_of: Sequence[Thing], T: FloatArray) -> float:
-    """Return how much of a room's things is seen from a place: many of them, not too near."""
-    sight = renderer.look(renderer.eye, T)
-    triangle, t = sight.hits.triangle[::4, ::4], sight.hits.t[::4, ::4]
-    quads, counts = np.unique(triangle[(triangle >= 0) & (t > 0.7)] // 2, return_counts=True)
+def _shown(
+    renderer: Renderer, eye: Eye, things: Sequence[Thing], room: Room, T: FloatArray
+) -> float:
+    """Return how much of a room is seen from a place: many of its things, and little else."""
+    hits = renderer.look(eye, T).hits
+    quads, counts = np.unique(hits.triangle[hits.triangle >= 0] // 2, return_counts=True)
     pixels = dict(zip(quads.tolist(), counts.tolist(), strict=True))
-    things = 0.0
-    for thing in things_of:
+    score = 0.0
+    for thing in things:
         shown = sum(pixels.get(quad, 0) for quad in range(thing.quads.start, thing.quads.stop))
-        things += min(np.sqrt(shown), MOST_OF_ONE) if shown > 6 else 0.0
-    depth = np.where(np.isfinite(t), t, 0)
+        score += min(np.sqrt(shown), MOST_OF_ONE) if shown > 6 else 0.0
+    depth = np.where(np.isfinite(hits.t), hits.t, 0)
+    points = eye.rays.reshape(-1, 3) * depth.reshape(-1, 1) @ T[:3, :3].T + T[:3, 3]
+    inside = float((room.floor.distance(points[:, :2]) < 0.2).mean())
     deep = float(np.clip(np.median(depth), 0, 3.0))
-    return things + 20 * deep - 200 * float((depth < 0.7).mean())
+    return (score + 20 * deep) * inside**2 - 200 * float((depth < 0.7).mean())
 
 
 def from_above(world: World, renderer: Renderer, level: int) -> Image:

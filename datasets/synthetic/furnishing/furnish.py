@@ -121,17 +121,12 @@ def furnish_room(room: Room, plan: FloorPlan, surfaces: Surfaces, now: Circumsta
 
 
 def _finished_like(room: Room, plan: FloorPlan) -> Room:
-    """Return the room whose finishes a room has: no wall parts it from that one."""
-    first = room
-    while True:
-        joined = [
-            plan.room(door.rooms[0])
-            for door in plan.doorways
-            if door.kind == "open" and door.rooms[1] == first.key
-        ]
-        if not joined:
-            return first
-        first = joined[0]
+    """Return the first of the rooms that no walls part from a room: all have its finishes."""
+    joined = {room.key}
+    pairs = [set(door.rooms) for door in plan.doorways if door.kind == "open"]
+    while grown := [pair for pair in pairs if pair & joined and not pair <= joined]:
+        joined.update(*grown)
+    return next(other for other in plan.rooms if other.key in joined)
 
 
 def _walls(room: Room, plan: FloorPlan, surfaces: Surfaces) -> list[Wall]:
