@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -37,9 +38,10 @@ def cached_light(folder: Path | None, key: str, bake: Callable[[], LightMap]) ->
         return bake()
     path = folder / f"{key}.npz"
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        # Opened here, or NumPy leaves a damaged file open.
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
             return LightMap(stored["image"], stored["places"], stored["sizes"])
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         light = bake()
     folder.mkdir(parents=True, exist_ok=True)
     with replacing(path) as temporary:
