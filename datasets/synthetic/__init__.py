@@ -1,1 +1,1 @@
-"""The rendered building: a procedural office floor, its camera walk and its ground truth."""
+"""Rendered worlds: buildings from a seed, recorded on a walk, with their truth."""

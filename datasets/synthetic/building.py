@@ -91,13 +91,13 @@ class Building:
 
     seed: int
     plan: FloorPlan
-    quads: Sequence[Quad]
-    footprints: FloatArray
-    lamps: Sequence[Lamp]
-    things: Sequence[Thing] = ()
-    obstacles: Sequence[tuple[int, FloatArray]] = ()
-    leaves: dict[int, Leaf] = field(default_factory=dict)
-    seats: Sequence[Stand] = ()
+    quads: Sequence[Quad] = field(repr=False)
+    footprints: FloatArray = field(repr=False)
+    lamps: Sequence[Lamp] = field(repr=False)
+    things: Sequence[Thing] = field(default=(), repr=False)
+    obstacles: Sequence[tuple[int, FloatArray]] = field(default=(), repr=False)
+    leaves: dict[int, Leaf] = field(default_factory=dict, repr=False)
+    seats: Sequence[Stand] = field(default=(), repr=False)
     missing: Sequence[str] = ()
     sun: FloatArray | None = None
     tint: FloatArray | None = None

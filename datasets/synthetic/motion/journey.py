@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import BSpline
@@ -89,29 +89,30 @@ def travel(building: Building, settings: BuildingSettings) -> Journey:
 def _walk_once(
     tour: Tour, frames: _Frames, storey_m: float, settings: BuildingSettings
 ) -> list[Ride]:
-    most = np.deg2rad(settings.turn_deg) * 0.9
-    ways = [_smooth(leg) for leg in tour.legs]
-    paces = [pace(way, settings, is_closed=False) for way, _ in ways]
-    first, rides, first_heading = frames.count == 0, [], 0.0
-    for number, ((way, xyz), arc) in enumerate(zip(ways, paces, strict=True)):
+    """Walk the legs of a tour, with a ride between them, and turn to where one looked at first."""
+    rides: list[Ride] = []
+    headings_before: list[float] = []
+    for leg in tour.legs:
+        way, xyz = _smooth(leg)
+        arc = pace(way, settings, is_closed=False)
         places = np.column_stack([np.interp(arc, way.arc_m, xyz[:, k]) for k in range(3)])
         headings = np.interp(arc, way.arc_m, way.heading)
-        skip = 0 if first and number == 0 else 1
-        if number == 0:
-            first_heading = float(headings[0])
-        else:
+        if headings_before:
             rides.append(_ride(frames, places[0], float(headings[0]), storey_m, settings))
-        frames.add(places[skip:], headings[skip:])
-        if number:
-            far = np.linalg.norm(places - places[0], axis=1) > BEFORE_DOOR_M + BEHIND_M + 0.5
-            left = (frames.count - len(places) + int(np.argmax(far))) / settings.rate_hz
-            rides[-1] = _with_end(rides[-1], left + LATE_S)
-    frames.turn(first_heading, most)
-    return rides
+        headings_before.append(float(headings[0]))
+        # A leg begins where the last one, or the last lap, has ended.
+        begin = 1 if frames.count else 0
+        frames.add(places[begin:], headings[begin:])
+    frames.turn(headings_before[0], np.deg2rad(settings.turn_deg) * 0.9)
+    return [replace(ride, left_s=_left(ride, frames, settings.rate_hz)) for ride in rides]
 
 
-def _with_end(ride: Ride, left_s: float) -> Ride:
-    return Ride(ride.start, ride.end, ride.called_s, ride.closing_s, ride.arrived_s, left_s)
+def _left(ride: Ride, frames: _Frames, rate_hz: float) -> float:
+    """Return when an elevator's doors may close behind one who has got out."""
+    xy = np.concatenate(frames.places)[:, :2]
+    out = int(np.ceil(ride.arrived_s * rate_hz))
+    far = np.linalg.norm(xy[out:] - xy[out], axis=1) > BEFORE_DOOR_M + BEHIND_M + 0.5
+    return (out + int(np.argmax(far))) / rate_hz + LATE_S
 
 
 def _ride(

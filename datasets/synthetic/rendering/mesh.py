@@ -80,10 +80,10 @@ class Surfaces:
     """A growing list of quads, with the things they make up, their footprints and their lamps."""
 
     rng: np.random.Generator
-    quads: list[Quad] = field(default_factory=list)
-    footprints: list[FloatArray] = field(default_factory=list)
-    things: list[Thing] = field(default_factory=list)
-    lamps: list[Lamp] = field(default_factory=list)
+    quads: list[Quad] = field(default_factory=list, repr=False)
+    footprints: list[FloatArray] = field(default_factory=list, repr=False)
+    things: list[Thing] = field(default_factory=list, repr=False)
+    lamps: list[Lamp] = field(default_factory=list, repr=False)
 
     @contextmanager
     def thing(self, name: str) -> Iterator[None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from roomgraph.datasets.synthetic.rendering.mesh import Quad
 
 FloatArray = NDArray[np.float64]
-THREADS = 2
+THREADS = os.cpu_count() or 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)

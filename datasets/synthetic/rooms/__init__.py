@@ -1,1 +1,1 @@
-"""What the kinds of rooms are made of and furnished with."""
+"""The rooms of the corridor plan, as the first version furnished them."""
