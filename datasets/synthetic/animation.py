@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from roomgraph.datasets.synthetic.structure.doors import opened_on_the_way
 from roomgraph.datasets.synthetic.structure.elevator import build_elevator
 from roomgraph.datasets.synthetic.structure.moving import Stiff
 
+logger = logging.getLogger(__name__)
 # A door is passed when the camera is this near to its middle.
 PASSING_M = 0.45
 SEAT_HEIGHT_M = 0.45
@@ -97,4 +99,7 @@ def _people(building: Building, journey: Journey, count: int) -> tuple[Person, .
         if door.kind in ("door", "jamb", "passage")
     ]
     rng = np.random.default_rng((building.seed, 11))
-    return tuple(crowd(rng, count, journey.trajectory, is_free, seats, doors, journey.floor_m))
+    people = crowd(rng, count, journey.trajectory, is_free, seats, doors, journey.floor_m)
+    if len(people) < count:
+        logger.warning("only %d of %d people find room beside the camera", len(people), count)
+    return tuple(people)

@@ -222,6 +222,7 @@ def describe(world: World, settings: BuildingSettings) -> dict[str, object]:
             {"kind": s.kind, "begin": round(s.begin_s, 3), "end": round(s.end_s, 3)}
             for s in world.stretches
         ]
+        told["people"] = len(world.animation.people)
         told["missing"] = list(building.missing)
     return told
 

@@ -44,7 +44,8 @@ def build_window(face: Face, window: Window, rng: np.random.Generator, power: fl
     x, z = (window.begin, window.end), (window.sill, window.head)
     white = Material(patterns.plain(8, 8, patterns.shift(rng, (236, 236, 232), 6)), 4.0, 4.0)
     with stand.surfaces.thing("window"):
-        stand.picture(x, z, 0.008, Material(view, glow=GLOW))
+        # No depth camera sees the pane.
+        stand.picture(x, z, 0.008, Material(view, shiny=True, glow=GLOW))
         bars = int(rng.integers(1, 3)) if width > 1.1 else 1
         for share in np.linspace(0, 1, bars + 2):
             middle = x[0] + float(share) * width
