@@ -22,9 +22,9 @@ from roomgraph.datasets.synthetic.cameras.photograph import (
     white_balance_series,
 )
 from roomgraph.datasets.synthetic.cameras.registry import sensor
+from roomgraph.datasets.synthetic.renderer import DEPTH_STREAM, Renderer, Sight
 from roomgraph.datasets.synthetic.rendering.eye import Eye, pinhole
 from roomgraph.datasets.synthetic.rendering.mesh import Image
-from roomgraph.datasets.synthetic.rendering.renderer import DEPTH_STREAM, Renderer, Sight
 from roomgraph.datasets.synthetic.settings import LIGHTS, Light
 from roomgraph.datasets.synthetic.world import World
 

@@ -13,10 +13,10 @@ from roomgraph.datasets.camera import Intrinsics
 from roomgraph.datasets.synthetic.motion.free_space import free_space
 from roomgraph.datasets.synthetic.motion.walk import camera_poses
 from roomgraph.datasets.synthetic.plans.layout import Room
+from roomgraph.datasets.synthetic.renderer import Renderer, Sight
 from roomgraph.datasets.synthetic.rendering.eye import Eye, pinhole
 from roomgraph.datasets.synthetic.rendering.mesh import Image, Thing
 from roomgraph.datasets.synthetic.rendering.raycast import Hits
-from roomgraph.datasets.synthetic.rendering.renderer import Renderer, Sight
 from roomgraph.datasets.synthetic.settings import Light
 from roomgraph.datasets.synthetic.structure.elevator import DOORS_S
 from roomgraph.datasets.synthetic.structure.stairs import way_up

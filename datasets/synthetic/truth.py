@@ -13,7 +13,7 @@ from roomgraph.datasets.places import PlaceTruth
 from roomgraph.datasets.synthetic.building import Building
 from roomgraph.datasets.synthetic.motion.imu import GRAVITY
 from roomgraph.datasets.synthetic.plans.layout import Room
-from roomgraph.datasets.synthetic.rendering.renderer import Sight
+from roomgraph.datasets.synthetic.renderer import Sight
 from roomgraph.datasets.synthetic.settings import ADDED, BuildingSettings
 from roomgraph.datasets.synthetic.structure.moving import Body
 from roomgraph.datasets.synthetic.world import World

@@ -11,8 +11,8 @@ from roomgraph.datasets.frame import Frame
 from roomgraph.datasets.synthetic.building import Building
 from roomgraph.datasets.synthetic.motion.walk import camera_poses
 from roomgraph.datasets.synthetic.plans.layout import FloorPlan
+from roomgraph.datasets.synthetic.renderer import Renderer
 from roomgraph.datasets.synthetic.rendering.mesh import Material, Quad
-from roomgraph.datasets.synthetic.rendering.renderer import Renderer
 from roomgraph.datasets.synthetic.textures import ink, patterns
 from roomgraph.datasets.trajectory import Trajectory
 from roomgraph.slam.backend.loop_verification import LoopVerifier

@@ -10,7 +10,7 @@ from roomgraph.datasets.synthetic.building import build
 from roomgraph.datasets.synthetic.cameras.kinect import FOCAL_BASELINE, NoiseBank, measure
 from roomgraph.datasets.synthetic.motion.walk import camera_poses, walk
 from roomgraph.datasets.synthetic.plans.layout import CEILING_M
-from roomgraph.datasets.synthetic.rendering.renderer import Renderer
+from roomgraph.datasets.synthetic.renderer import Renderer
 from roomgraph.datasets.synthetic.settings import LIGHTS, BuildingSettings
 
 pytestmark = pytest.mark.slow

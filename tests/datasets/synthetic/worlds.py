@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from roomgraph.datasets.synthetic.building import Building
 from roomgraph.datasets.synthetic.plans.layout import Doorway, FloorPlan, Rectangle, Room
 from roomgraph.datasets.synthetic.recorder import Recorder
+from roomgraph.datasets.synthetic.renderer import Renderer
 from roomgraph.datasets.synthetic.rendering.mesh import Lamp, Material, Surfaces
-from roomgraph.datasets.synthetic.rendering.renderer import Renderer
 from roomgraph.datasets.synthetic.settings import BuildingSettings
 from roomgraph.datasets.synthetic.world import World, make_world
 

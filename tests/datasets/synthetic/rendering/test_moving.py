@@ -13,10 +13,10 @@ from roomgraph.datasets.synthetic.motion.walk import camera_poses
 from roomgraph.datasets.synthetic.people.figure import draw_figure
 from roomgraph.datasets.synthetic.people.person import Person, Schedule
 from roomgraph.datasets.synthetic.recorder import READOUT_S
+from roomgraph.datasets.synthetic.renderer import Renderer
 from roomgraph.datasets.synthetic.rendering.eye import pinhole
 from roomgraph.datasets.synthetic.rendering.mesh import Material, Surfaces
 from roomgraph.datasets.synthetic.rendering.raycast import Scene
-from roomgraph.datasets.synthetic.rendering.renderer import Renderer
 from roomgraph.datasets.synthetic.rendering.stand import Stand
 from roomgraph.datasets.synthetic.structure.moving import Stiff, turned
 from tests.datasets.synthetic.worlds import BOX, box_room, suite
