@@ -38,6 +38,9 @@ SLANT = 0.6
 DEPTH_STREAM = 99
 # Farther than this, nothing that moves is looked for.
 MOVING_REACH_M = 15.0
+# What moves is hidden if it is this much farther than all that is seen before it: rows that are
+# read one after the other, while the camera turns, measure its depth differently.
+HIDDEN_M = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,6 +182,8 @@ class Renderer:
             rows, columns = eye.window(centre, body.radius_m, T)
             if rows.stop <= rows.start or columns.stop <= columns.start:
                 continue
+            if hits.t[rows, columns].max() < eye.depth(centre, T) - body.radius_m - HIDDEN_M:
+                continue  # It is behind a wall.
             near = Scene.of(body.corners(stamp_s)).cast(np.ascontiguousarray(rays[rows, columns]))
             closer = near.t < hits.t[rows, columns]
             hits.t[rows, columns][closer] = near.t[closer]

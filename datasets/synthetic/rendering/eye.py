@@ -49,6 +49,11 @@ class Eye:
         np.matmul(self.rays, R.swapaxes(1, 2), out=rays[..., 3:])
         return rays
 
+    def depth(self, point: FloatArray, T: FloatArray) -> float:
+        """Return how far a point (3,) is, as this eye's rays measure it, from (4, 4)."""
+        way = point - T[:3, 3]
+        return float(way @ T[:3, 2]) if self.is_pinhole else float(np.linalg.norm(way))
+
     def window(self, centre: FloatArray, radius_m: float, T: FloatArray) -> tuple[slice, slice]:
         """Return the rows and columns that may see a ball, from a camera at T_world_camera (4, 4).
 

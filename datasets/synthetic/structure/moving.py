@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -43,16 +43,22 @@ class Stiff:
         Its surfaces at rest, in the world.
     motion : callable
         Returns the motion (4, 4) from rest to where it is at a time, seconds.
+    radius_m : float
+        How far its points are from its centre at most.
     """
 
     quads: Sequence[Quad]
     motion: Callable[[float], FloatArray]
+    radius_m: float = field(init=False)
+    _points: FloatArray = field(init=False)
+    _middle: FloatArray = field(init=False)
 
-    @property
-    def radius_m(self) -> float:
-        """How far its points are from its centre at most."""
-        points = self._points
-        return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
+    def __post_init__(self) -> None:
+        points = np.concatenate([quad.corners for quad in self.quads])
+        middle = points.mean(axis=0)
+        radius_m = float(np.linalg.norm(points - middle, axis=1).max())
+        for name, value in (("_points", points), ("_middle", middle), ("radius_m", radius_m)):
+            object.__setattr__(self, name, value)
 
     def is_there(self, stamp_s: float) -> bool:
         """Whether it is in the building at a time: always."""
@@ -60,16 +66,11 @@ class Stiff:
 
     def centre(self, stamp_s: float) -> FloatArray:
         """Its middle (3,) at a time."""
-        middle = self._points.mean(axis=0)[None]
-        return np.asarray(transform(self.motion(stamp_s), middle)[0])
+        return np.asarray(transform(self.motion(stamp_s), self._middle[None])[0])
 
     def corners(self, stamp_s: float) -> FloatArray:
         """Its quads' corners (N, 4, 3) at a time."""
         return transform(self.motion(stamp_s), self._points).reshape(-1, 4, 3)
-
-    @property
-    def _points(self) -> FloatArray:
-        return np.concatenate([quad.corners for quad in self.quads])
 
 
 def shifted(offset: FloatArray) -> FloatArray:
