@@ -76,8 +76,9 @@ def draw_sheet(
     from roomgraph.datasets.synthetic.sheet import draw_page
     from roomgraph.datasets.synthetic.world import make_world
 
+    floors = f"_{settings.floors}floors" if settings.floors > 1 else ""
     visit = f"_visit{settings.visit}" if settings.visit else ""
-    path = output / f"{settings.plan}{settings.seed}{visit}.jpg"
+    path = output / f"{settings.plan}{settings.seed}{floors}{visit}.jpg"
     if path.exists() and not overwrite:
         raise AppError(
             "page is there already", where=path, hint="overwrite it with --overwrite, or name "
@@ -88,7 +89,8 @@ def draw_sheet(
     output.mkdir(parents=True, exist_ok=True)
     with replacing(path) as temporary:
         bgr = cv2.cvtColor(page, cv2.COLOR_RGB2BGR)
-        cv2.imwrite(str(temporary), bgr, [cv2.IMWRITE_JPEG_QUALITY, 82])
+        _, data = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, 82])
+        temporary.write_bytes(data.tobytes())  # Unlike cv2.imwrite, this says when a disk is full.
     return path
 
 
